@@ -1,0 +1,75 @@
+/// \file Loops and reductions over index ranges whose results have the same bits for any number of threads.
+///
+/// Ranges are cut into blocks of a fixed size, never by the number of threads; a reduction combines the blocks' results
+/// in a fixed tree. With oneTBB the blocks run on its threads, without it one after the other.
+#pragma once
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#ifdef BATTEN_WITH_TBB
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#endif
+
+namespace batten {
+
+inline constexpr std::ptrdiff_t kDefaultBlock = 4096;
+
+/// Number of threads that loops may use now.
+int thread_count();
+
+/// While it lives, loops use at most `threads` threads; fewer than 1 means no limit. Does not change any result.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(int threads);
+  ~ThreadLimit();
+  ThreadLimit(const ThreadLimit&) = delete;
+  ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+ private:
+  struct Control;
+  std::unique_ptr<Control> control_;
+};
+
+/// Calls body(block) for each block in [0, count).
+template <typename Body>
+void parallel_for_each(std::ptrdiff_t count, const Body& body) {
+#ifdef BATTEN_WITH_TBB
+  if (count > 1) {
+    tbb::parallel_for(tbb::blocked_range<std::ptrdiff_t>(0, count, 1), [&](const auto& range) {
+      for (std::ptrdiff_t i = range.begin(); i != range.end(); ++i) body(i);
+    });
+    return;
+  }
+#endif
+  for (std::ptrdiff_t i = 0; i < count; ++i) body(i);
+}
+
+inline std::ptrdiff_t block_count(std::ptrdiff_t count, std::ptrdiff_t block = kDefaultBlock) {
+  return (count + block - 1) / block;
+}
+
+/// Calls body(begin, end) for consecutive blocks that cover [0, count).
+template <typename Body>
+void parallel_for(std::ptrdiff_t count, const Body& body, std::ptrdiff_t block = kDefaultBlock) {
+  parallel_for_each(block_count(count, block), [&](std::ptrdiff_t i) {
+    const std::ptrdiff_t begin = i * block;
+    body(begin, begin + block < count ? begin + block : count);
+  });
+}
+
+/// Combines map(begin, end) over the blocks of [0, count) pairwise, in a tree that depends on count and block only.
+template <typename T, typename Map, typename Combine>
+T parallel_reduce(std::ptrdiff_t count, T identity, const Map& map, const Combine& combine,
+                  std::ptrdiff_t block = kDefaultBlock) {
+  std::vector<T> parts(static_cast<std::size_t>(block_count(count, block)), identity);
+  parallel_for(
+      count, [&](std::ptrdiff_t begin, std::ptrdiff_t end) { parts[begin / block] = map(begin, end); }, block);
+  for (std::size_t width = 1; width < parts.size(); width *= 2) {
+    for (std::size_t i = 0; i + width < parts.size(); i += 2 * width) parts[i] = combine(parts[i], parts[i + width]);
+  }
+  return parts.empty() ? identity : parts[0];
+}
+
+}  // namespace batten

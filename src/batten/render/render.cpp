@@ -1,0 +1,1 @@
+#include "batten/render/render.h"

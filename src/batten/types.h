@@ -1,0 +1,37 @@
+/// \file The words that every room uses: indices, values, and the choices that a mesh file can make about its surface.
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+
+namespace batten {
+
+using Index = std::int32_t;
+
+/// N-by-k, row i belongs to element i. Everything linear works on these; positions are k = 3.
+using Values = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+/// Binds to Values, to Points and to blocks of rows or columns without a copy.
+using ConstValuesRef = Eigen::Ref<const Values, 0, Eigen::OuterStride<>>;
+using ValuesRef = Eigen::Ref<Values, 0, Eigen::OuterStride<>>;
+
+/// What the surface does at a boundary (OpenSubdiv's names).
+enum class BoundaryRule {
+  None,          ///< faces at the boundary are not part of the surface; they only shape it
+  EdgeAndCorner, ///< boundary curves, and vertices of a single face stay where they are
+  EdgeOnly       ///< boundary curves, smooth at vertices of a single face too
+};
+
+/// How semi-sharp sharpness decays from level to level.
+enum class CreaseMethod { Uniform, Chaikin };
+
+/// Which weights a Catmull-Clark edge point takes beside triangles.
+enum class TriangleRule { Catmark, Smooth };
+
+/// A sharpness of 10 or more is infinite, as in OpenSubdiv.
+inline constexpr float kInfiniteSharpness = 10.0F;
+
+/// Called now and then with the done fraction in [0, 1]; return false to cancel (the operation throws Error(Cancelled)).
+using Progress = std::function<bool(double)>;
+
+}  // namespace batten
