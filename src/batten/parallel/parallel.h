@@ -46,6 +46,13 @@ void parallel_for_each(std::ptrdiff_t count, const Body& body) {
   for (std::ptrdiff_t i = 0; i < count; ++i) body(i);
 }
 
+/// Adds to a counter that several threads share and returns what it held before. Only for integers whose final value,
+/// or an order that is sorted out afterwards, does not depend on who came first.
+template <typename T>
+T atomic_add(T& counter, T amount) {
+  return __atomic_fetch_add(&counter, amount, __ATOMIC_RELAXED);
+}
+
 inline std::ptrdiff_t block_count(std::ptrdiff_t count, std::ptrdiff_t block = kDefaultBlock) {
   return (count + block - 1) / block;
 }

@@ -1,0 +1,352 @@
+#include "batten/mesh/topology.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "batten/error.h"
+#include "batten/mesh/check.h"
+#include "batten/parallel/parallel.h"
+
+namespace batten {
+
+namespace {
+
+/// A half-edge as seen from its origin, for sorting by destination.
+struct Spoke {
+  Index destination;
+  Index half_edge;
+  bool operator<(const Spoke& other) const {
+    return destination != other.destination ? destination < other.destination : half_edge < other.half_edge;
+  }
+};
+
+bool all_of(std::ptrdiff_t count, const std::function<bool(std::ptrdiff_t, std::ptrdiff_t)>& test) {
+  return parallel_reduce(
+             count, 1, [&](std::ptrdiff_t begin, std::ptrdiff_t end) { return test(begin, end) ? 1 : 0; },
+             [](int a, int b) { return a & b; }, 1 << 15) == 1;
+}
+
+bool has_repeated_vertex(const Index* vertices, Index count) {
+  if (count > 16) {
+    Buffer<Index> sorted(vertices, vertices + count);
+    std::sort(sorted.begin(), sorted.end());
+    return std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
+  }
+  for (Index i = 1; i < count; ++i) {
+    for (Index j = 0; j < i; ++j) {
+      if (vertices[i] == vertices[j]) return true;
+    }
+  }
+  return false;
+}
+
+bool offsets_and_indices_hold(const Mesh& mesh) {
+  constexpr std::size_t kMost = std::numeric_limits<Index>::max();
+  if (mesh.face_offsets.empty() || mesh.face_offsets.front() != 0 || mesh.face_vertices.size() > kMost ||
+      static_cast<std::size_t>(mesh.face_offsets.back()) != mesh.face_vertices.size()) {
+    return false;
+  }
+  const Index vertex_count = mesh.vertex_count();
+  const auto faces_hold = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (std::ptrdiff_t f = begin; f < end; ++f) {
+      if (mesh.face_offsets[f] < 0 || mesh.face_offsets[f + 1] - std::int64_t{mesh.face_offsets[f]} < 3 ||
+          mesh.face_offsets[f + 1] > mesh.face_offsets.back()) {
+        return false;
+      }
+      const Index* vertices = &mesh.face_vertices[mesh.face_offsets[f]];
+      const Index size = mesh.face_size(static_cast<Index>(f));
+      for (Index i = 0; i < size; ++i) {
+        if (vertices[i] < 0 || vertices[i] >= vertex_count) return false;
+      }
+      if (has_repeated_vertex(vertices, size)) return false;
+    }
+    return true;
+  };
+  const auto points_hold = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    return mesh.points.middleRows(begin, end - begin).allFinite();
+  };
+  return all_of(mesh.face_count(), faces_hold) && all_of(mesh.points.rows(), points_hold);
+}
+
+/// The half-edges that leave each vertex, sorted by destination: spokes[offsets[v] .. offsets[v + 1]).
+struct SpokeTable {
+  Buffer<Index> offsets;
+  Buffer<Spoke> spokes;
+};
+
+SpokeTable gather_spokes(TopologyTables& tables) {
+  const Index vertex_count = tables.vertex_count;
+  const auto face_count = static_cast<std::ptrdiff_t>(tables.face_offsets.size()) - 1;
+  SpokeTable table;
+  table.offsets.assign(static_cast<std::size_t>(vertex_count) + 1, 0);
+  // Counted two places to the right would need a copy; counted in place, each vertex's offset is moved back below.
+  parallel_for(
+      static_cast<std::ptrdiff_t>(tables.origins.size()),
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        for (std::ptrdiff_t h = begin; h < end; ++h) atomic_add(table.offsets[tables.origins[h]], 1);
+      },
+      1 << 16);
+  Index sum = 0;
+  for (Index& offset : table.offsets) offset = sum += offset;
+  table.spokes.resize(tables.origins.size());
+  tables.faces.resize(tables.origins.size());
+  parallel_for(
+      face_count,
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        for (std::ptrdiff_t f = begin; f < end; ++f) {
+          const Index first = tables.face_offsets[f];
+          const Index last = tables.face_offsets[f + 1] - 1;
+          for (Index h = first; h <= last; ++h) {
+            tables.faces[h] = static_cast<Index>(f);
+            const Index slot = atomic_add(table.offsets[tables.origins[h]], -1) - 1;
+            table.spokes[slot] = {tables.origins[h == last ? first : h + 1], h};
+          }
+        }
+      },
+      1 << 14);
+  return table;
+}
+
+/// Sorting makes the order independent of which thread came first. False when a directed edge stands twice.
+bool sort_spokes(SpokeTable& table) {
+  const auto sorted = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    bool unique = true;
+    for (std::ptrdiff_t v = begin; v < end; ++v) {
+      Spoke* first = table.spokes.data() + table.offsets[v];
+      Spoke* last = table.spokes.data() + table.offsets[v + 1];
+      if (last - first > 16) {
+        std::sort(first, last);
+      } else {
+        for (Spoke* i = first + 1; i < last; ++i) {
+          const Spoke moved = *i;
+          Spoke* hole = i;
+          for (; hole > first && moved < hole[-1]; --hole) *hole = hole[-1];
+          *hole = moved;
+        }
+      }
+      for (const Spoke* i = first + 1; i < last; ++i) unique = unique && i[-1].destination != i->destination;
+    }
+    return unique;
+  };
+  return all_of(static_cast<std::ptrdiff_t>(table.offsets.size()) - 1, sorted);
+}
+
+Index find_spoke(const SpokeTable& table, Index from, Index to) {
+  const Spoke* first = table.spokes.data() + table.offsets[from];
+  const Spoke* last = table.spokes.data() + table.offsets[from + 1];
+  if (last - first > 16) first = std::lower_bound(first, last, Spoke{to, 0});
+  for (; first < last && first->destination <= to; ++first) {
+    if (first->destination == to) return first->half_edge;
+  }
+  return -1;
+}
+
+/// Each thread writes the entries of its own vertices' spokes, and of their twins from the lower end.
+void match_twins(const SpokeTable& table, TopologyTables& tables) {
+  tables.twins.resize(tables.origins.size());
+  parallel_for(
+      tables.vertex_count,
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        for (auto v = static_cast<Index>(begin); v < end; ++v) {
+          for (Index i = table.offsets[v]; i < table.offsets[v + 1]; ++i) {
+            const Spoke spoke = table.spokes[i];
+            if (v < spoke.destination) {
+              const Index twin = find_spoke(table, spoke.destination, v);
+              tables.twins[spoke.half_edge] = twin;
+              if (twin >= 0) tables.twins[twin] = spoke.half_edge;
+            } else if (find_spoke(table, spoke.destination, v) < 0) {
+              tables.twins[spoke.half_edge] = -1;
+            }
+          }
+        }
+      },
+      1 << 13);
+}
+
+Index previous_half_edge(const TopologyTables& tables, Index h) {
+  const Index f = tables.faces[h];
+  return h == tables.face_offsets[f] ? tables.face_offsets[f + 1] - 1 : h - 1;
+}
+
+/// Finds where each vertex's fan starts; false when one turn does not meet all faces of a vertex.
+bool start_fans(const SpokeTable& table, TopologyTables& tables) {
+  tables.vertex_half_edges.resize(static_cast<std::size_t>(tables.vertex_count));
+  const auto fans_hold = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (std::ptrdiff_t v = begin; v < end; ++v) {
+      const Index count = table.offsets[v + 1] - table.offsets[v];
+      Index start = count == 0 ? -1 : table.spokes[table.offsets[v]].half_edge;
+      for (Index i = table.offsets[v]; i < table.offsets[v + 1]; ++i) {
+        const Index h = table.spokes[i].half_edge;
+        if (tables.twins[h] < 0) {
+          start = h;
+          break;
+        }
+        start = std::min(start, h);
+      }
+      tables.vertex_half_edges[v] = start;
+      Index met = 0;
+      for (Index h = start; h >= 0 && met < count;) {
+        ++met;
+        h = tables.twins[previous_half_edge(tables, h)];
+        if (h == start) break;
+      }
+      if (met != count) return false;
+    }
+    return true;
+  };
+  return all_of(tables.vertex_count, fans_hold);
+}
+
+/// Edges are numbered by their lower half-edge, in order.
+void number_edges(TopologyTables& tables) {
+  constexpr std::ptrdiff_t kBlock = 1 << 16;
+  const auto count = static_cast<std::ptrdiff_t>(tables.origins.size());
+  const auto owns = [&](std::ptrdiff_t h) { return tables.twins[h] < 0 || h < tables.twins[h]; };
+  std::vector<Index> firsts(static_cast<std::size_t>(block_count(count, kBlock)) + 1, 0);
+  parallel_for(
+      count,
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        Index owned = 0;
+        for (std::ptrdiff_t h = begin; h < end; ++h) owned += owns(h) ? 1 : 0;
+        firsts[begin / kBlock + 1] = owned;
+      },
+      kBlock);
+  for (std::size_t i = 1; i < firsts.size(); ++i) firsts[i] += firsts[i - 1];
+  tables.edges.resize(tables.origins.size());
+  tables.edge_half_edges.resize(static_cast<std::size_t>(firsts.back()));
+  parallel_for(
+      count,
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        Index edge = firsts[begin / kBlock];
+        for (std::ptrdiff_t h = begin; h < end; ++h) {
+          if (!owns(h)) continue;
+          tables.edges[h] = edge;
+          if (tables.twins[h] >= 0) tables.edges[tables.twins[h]] = edge;
+          tables.edge_half_edges[edge++] = static_cast<Index>(h);
+        }
+      },
+      kBlock);
+}
+
+/// False when a tag names what does not exist or is not a number.
+bool apply_tags(const Mesh& mesh, const SpokeTable& table, TopologyTables& tables) {
+  const auto exists = [&](Index v) { return v >= 0 && v < tables.vertex_count; };
+  const auto as_float = [](double sharpness) { return static_cast<float>(std::clamp(sharpness, 0.0, 10.0)); };
+  if (!mesh.creases.empty()) tables.edge_sharpness.assign(tables.edge_half_edges.size(), 0.0F);
+  for (const Crease& crease : mesh.creases) {
+    if (!exists(crease.a) || !exists(crease.b) || !std::isfinite(crease.sharpness)) return false;
+    Index h = find_spoke(table, crease.a, crease.b);
+    if (h < 0) h = find_spoke(table, crease.b, crease.a);
+    if (h < 0) return false;
+    tables.edge_sharpness[tables.edges[h]] = as_float(crease.sharpness);
+  }
+  if (!mesh.corners.empty()) tables.vertex_sharpness.assign(static_cast<std::size_t>(tables.vertex_count), 0.0F);
+  for (const Corner& corner : mesh.corners) {
+    if (!exists(corner.vertex) || !std::isfinite(corner.sharpness)) return false;
+    tables.vertex_sharpness[corner.vertex] = as_float(corner.sharpness);
+  }
+  if (!mesh.holes.empty()) tables.holes.assign(static_cast<std::size_t>(mesh.face_count()), 0);
+  for (const Index face : mesh.holes) {
+    if (face < 0 || face >= mesh.face_count()) return false;
+    tables.holes[face] = 1;
+  }
+  return true;
+}
+
+Index common_face_size(const Buffer<Index>& offsets) {
+  if (offsets.size() < 2) return 0;
+  const Index size = offsets[1];
+  const auto same = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (std::ptrdiff_t f = begin; f < end; ++f) {
+      if (offsets[f + 1] - offsets[f] != size) return false;
+    }
+    return true;
+  };
+  return all_of(static_cast<std::ptrdiff_t>(offsets.size()) - 1, same) ? size : 0;
+}
+
+bool build(const Mesh& mesh, TopologyTables& tables) {
+  if (!offsets_and_indices_hold(mesh)) return false;
+  tables.vertex_count = mesh.vertex_count();
+  tables.face_offsets = mesh.face_offsets;
+  tables.origins = mesh.face_vertices;
+  tables.uniform_face_size = common_face_size(tables.face_offsets);
+  SpokeTable table = gather_spokes(tables);
+  if (!sort_spokes(table)) return false;
+  match_twins(table, tables);
+  if (!start_fans(table, tables)) return false;
+  number_edges(tables);
+  return apply_tags(mesh, table, tables);
+}
+
+}  // namespace
+
+Topology::Topology(const Mesh& mesh) {
+  if (mesh.points.rows() > std::numeric_limits<Index>::max()) {
+    throw Error(ErrorCode::TooLarge, "the mesh has more than 2^31 - 1 vertices; split it");
+  }
+  if (build(mesh, tables_)) return;
+  const std::vector<MeshProblem> problems = check(mesh);
+  if (problems.empty()) throw Error(ErrorCode::BadShape, "the mesh was refused for a reason that check() does not know");
+  throw Error(problems.front().kind, problems.front().message);
+}
+
+Topology Topology::from_tables(TopologyTables tables) {
+  Topology topology;
+  topology.tables_ = std::move(tables);
+  return topology;
+}
+
+Index Topology::vertex_face_count(Index vertex) const {
+  Index count = 0;
+  for_each_outgoing(vertex, [&](Index /*h*/) { ++count; });
+  return count;
+}
+
+Components connected_components(const Topology& topology) {
+  Components components;
+  components.of_vertex.assign(static_cast<std::size_t>(topology.vertex_count()), -1);
+  Buffer<Index> stack;
+  for (Index seed = 0; seed < topology.vertex_count(); ++seed) {
+    if (components.of_vertex[seed] >= 0) continue;
+    const Index label = components.count++;
+    components.of_vertex[seed] = label;
+    stack.push_back(seed);
+    const auto visit = [&](Index v) {
+      if (components.of_vertex[v] >= 0) return;
+      components.of_vertex[v] = label;
+      stack.push_back(v);
+    };
+    while (!stack.empty()) {
+      const Index v = stack.back();
+      stack.pop_back();
+      topology.for_each_outgoing(v, [&](Index h) {
+        visit(topology.destination(h));
+        visit(topology.origin(topology.previous(h)));
+      });
+    }
+  }
+  return components;
+}
+
+Mesh mesh_from_topology(const Topology& topology) {
+  const TopologyTables& tables = topology.tables();
+  Mesh mesh;
+  mesh.face_offsets = tables.face_offsets;
+  mesh.face_vertices = tables.origins;
+  for (std::size_t e = 0; e < tables.edge_sharpness.size(); ++e) {
+    if (tables.edge_sharpness[e] <= 0.0F) continue;
+    const Index h = tables.edge_half_edges[e];
+    mesh.creases.push_back({topology.origin(h), topology.destination(h), tables.edge_sharpness[e]});
+  }
+  for (std::size_t v = 0; v < tables.vertex_sharpness.size(); ++v) {
+    if (tables.vertex_sharpness[v] > 0.0F) mesh.corners.push_back({static_cast<Index>(v), tables.vertex_sharpness[v]});
+  }
+  for (std::size_t f = 0; f < tables.holes.size(); ++f) {
+    if (tables.holes[f] != 0) mesh.holes.push_back(static_cast<Index>(f));
+  }
+  return mesh;
+}
+
+}  // namespace batten

@@ -1,0 +1,10 @@
+/// \file The connectivity of one refinement step, in closed form (after Dupuy and Vanhoey 2021, key DV21).
+#pragma once
+#include "batten/mesh/topology.h"
+#include "batten/scheme/scheme.h"
+
+namespace batten {
+
+Topology child_topology(const Topology& topology, const Scheme& scheme);
+
+}  // namespace batten

@@ -1,0 +1,56 @@
+/// \file One step of uniform refinement, and several in a row.
+#pragma once
+#include <vector>
+
+#include "batten/mesh/mesh.h"
+#include "batten/mesh/topology.h"
+#include "batten/scheme/scheme.h"
+
+namespace batten {
+
+/// One refinement step: the child connectivity, built in closed form, and the map from control values to refined ones.
+///
+/// Vertex order of the child: vertex i of the parent, then one vertex an edge (V + e), then, for Catmull-Clark, one a face
+/// (V + E + f). Catmull-Clark makes of each half-edge h of the parent the quad h: (origin(h), edge(h), face, edge(previous(h))).
+/// Loop makes of each triangle f the triangles 4f..4f+2 at its corners and 4f+3 in the middle.
+/// Rules: OpenSubdiv 3.5's, to rounding. Cost O(H) time and memory. The topology must outlive the refinement.
+class Refinement {
+ public:
+  /// vertex_alpha: empty, or Lai's alpha for each vertex instead of scheme.alpha.
+  /// Throws Error(NotTriangles) for Loop on other faces, Error(BadArgument) for alpha out of [0, 1], Error(TooLarge).
+  Refinement(const Topology& topology, const Scheme& scheme, std::vector<double> vertex_alpha = {});
+
+  const Topology& child() const& { return child_; }
+  Topology child() && { return std::move(child_); }
+  const Scheme& scheme() const { return scheme_; }
+
+  /// values: V-by-k, row i for vertex i. Returns V'-by-k. Throws Error(BadShape).
+  Values apply(ConstValuesRef values) const;
+
+ private:
+  template <int K>
+  void apply_columns(const double* in, std::ptrdiff_t stride, Values& out) const;
+  double alpha(Index vertex) const { return vertex_alpha_.empty() ? scheme_.alpha : vertex_alpha_[vertex]; }
+
+  const Topology& topology_;
+  Scheme scheme_;
+  std::vector<double> vertex_alpha_;
+  Topology child_;
+};
+
+struct RefinedSurface {
+  Topology topology;
+  Values values;
+};
+
+/// `levels` steps; alpha acts in the first. Throws what Refinement throws, and Error(BadArgument) for negative levels.
+RefinedSurface refine(const Topology& topology, const Scheme& scheme, ConstValuesRef values, int levels);
+
+/// The scheme that a mesh asks for: its tags, Loop for triangles and Catmull-Clark for anything else.
+Scheme choose_scheme(const Mesh& mesh);
+
+/// Faces that are no part of the surface: tagged holes and, under BoundaryRule::None, the faces at boundary vertices
+/// whose boundary edges are not all tagged sharp. One flag a face, or empty for none.
+Buffer<std::uint8_t> surface_holes(const Topology& topology, const Scheme& scheme);
+
+}  // namespace batten

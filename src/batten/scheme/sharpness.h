@@ -1,0 +1,67 @@
+/// \file How sharpness decides the rule at a vertex or an edge, and how it decays (OpenSubdiv 3.5, sdc/crease; key OSD).
+///
+/// Sharpness is computed in float, as there, so that semi-sharp weights are the same to the last bit.
+#pragma once
+#include <span>
+
+#include "batten/scheme/scheme.h"
+
+namespace batten {
+
+enum class VertexRule { Smooth, Dart, Crease, Corner };
+
+inline bool is_sharp(float sharpness) { return sharpness > 0.0F; }
+inline bool is_infinite(float sharpness) { return sharpness >= kInfiniteSharpness; }
+inline bool is_semi_sharp(float sharpness) { return is_sharp(sharpness) && !is_infinite(sharpness); }
+
+/// One level less; infinite stays infinite.
+inline float subdivided_sharpness(float sharpness) {
+  if (is_infinite(sharpness)) return kInfiniteSharpness;
+  return sharpness > 1.0F ? sharpness - 1.0F : 0.0F;
+}
+
+/// Sharpness of the child, at one end, of the edge whose sharpness is `edge`; `around` holds the sharpness of all edges at
+/// that end. Chaikin: 3/4 of the edge and 1/4 of the average of the other semi-sharp edges there, less one.
+inline float subdivided_sharpness(float edge, std::span<const float> around, CreaseMethod method) {
+  if (method == CreaseMethod::Uniform || around.size() < 2) return subdivided_sharpness(edge);
+  if (!is_semi_sharp(edge)) return is_sharp(edge) ? kInfiniteSharpness : 0.0F;
+  float sum = 0.0F;
+  int count = 0;
+  for (const float sharpness : around) {
+    if (!is_semi_sharp(sharpness)) continue;
+    sum += sharpness;
+    ++count;
+  }
+  if (count == 1) return subdivided_sharpness(edge);
+  const float others = (sum - edge) / static_cast<float>(count - 1);
+  const float child = 0.75F * edge + 0.25F * others - 1.0F;
+  return is_sharp(child) ? child : 0.0F;
+}
+
+inline VertexRule vertex_rule(float vertex, std::span<const float> edges) {
+  if (is_sharp(vertex)) return VertexRule::Corner;
+  int sharp = 0;
+  for (const float edge : edges) sharp += is_sharp(edge) ? 1 : 0;
+  return sharp > 2 ? VertexRule::Corner : static_cast<VertexRule>(sharp);
+}
+
+/// Weight in [0, 1] of the parent's rule where the child's differs: the average of the sharpness values that run out.
+inline float transition_weight(float vertex, float child_vertex, std::span<const float> edges,
+                               std::span<const float> child_edges) {
+  float sum = 0.0F;
+  int count = 0;
+  if (is_sharp(vertex) && !is_sharp(child_vertex)) {
+    sum = vertex;
+    count = 1;
+  }
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (!is_sharp(edges[i]) || is_sharp(child_edges[i])) continue;
+    sum += edges[i];
+    ++count;
+  }
+  if (count == 0) return 0.0F;
+  const float weight = sum / static_cast<float>(count);
+  return weight > 1.0F ? 1.0F : weight;
+}
+
+}  // namespace batten
