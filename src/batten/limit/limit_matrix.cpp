@@ -1,0 +1,248 @@
+#include "batten/limit/limit_matrix.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <string>
+
+#include "batten/error.h"
+#include "batten/parallel/parallel.h"
+
+namespace batten {
+
+namespace {
+
+void check_rows(const Topology& topology, ConstValuesRef values) {
+  if (values.rows() == topology.vertex_count()) return;
+  throw Error(ErrorCode::BadShape, "values has " + std::to_string(values.rows()) + " rows, but the mesh has " +
+                                       std::to_string(topology.vertex_count()) + " vertices");
+}
+
+void check_triangles(const Topology& topology, const Scheme& scheme) {
+  if (scheme.kind != SchemeKind::Loop || topology.uniform_face_size() == 3 || topology.face_count() == 0) return;
+  throw Error(ErrorCode::NotTriangles,
+              "Loop subdivision needs triangles; triangulate (--triangulate) or take Catmull-Clark");
+}
+
+/// Weights on the vertices around: a weight on a quad corner f_j acts through 4 c_j - v - e_j - e_{j+1}.
+template <typename Visit>
+void visit_ring(const Topology& topology, Index vertex, const VertexRing& ring, const RingMask& mask, bool quads,
+                const Visit& visit) {
+  visit(vertex, mask.vertex);
+  for (std::size_t j = 0; j < ring.neighbours.size(); ++j) visit(ring.neighbours[j], mask.edges[j]);
+  if (!quads) return;
+  for (std::size_t j = 0; j < ring.corners.size(); ++j) {
+    const double weight = mask.faces[j];
+    if (weight == 0.0) continue;
+    const Index f = topology.face(ring.corners[j]);
+    visit(vertex, -weight);
+    visit(ring.neighbours[j], -weight);
+    visit(ring.neighbours[j + 1 == ring.neighbours.size() ? 0 : j + 1], -weight);
+    const double share = 4.0 * weight / topology.face_size(f);
+    for (Index h = topology.face_begin(f); h < topology.face_end(f); ++h) visit(topology.origin(h), share);
+  }
+}
+
+}  // namespace
+
+LimitMatrix::LimitMatrix(const Topology& topology, const Scheme& scheme, LimitOptions options)
+    : topology_(topology), scheme_(scheme), options_(std::move(options)) {
+  check_triangles(topology, scheme);
+  if (!options_.vertex_alpha.empty() && static_cast<Index>(options_.vertex_alpha.size()) != topology.vertex_count()) {
+    throw Error(ErrorCode::BadShape, "vertex_alpha must have one entry a vertex");
+  }
+  kinds_.resize(static_cast<std::size_t>(topology.vertex_count()));
+  parallel_for(topology.vertex_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    VertexRing ring;
+    for (auto v = static_cast<Index>(begin); v < end; ++v) classify(v, ring);
+  });
+  special_offsets_.push_back(0);
+  VertexRing ring;
+  for (Index v = 0; v < topology.vertex_count(); ++v) {
+    if (row_kind(v) == LimitRow::Special) add_special_row(v, ring);
+  }
+}
+
+void LimitMatrix::classify(Index vertex, VertexRing& ring) {
+  LimitRow row = LimitRow::Smooth;
+  const bool plain_triangles =
+      scheme_.kind == SchemeKind::Loop || scheme_.triangle_rule == TriangleRule::Catmark;
+  if (topology_.is_isolated(vertex)) {
+    row = LimitRow::Fixed;
+  } else if (!is_untagged(topology_) || topology_.is_boundary_vertex(vertex) || !plain_triangles) {
+    gather_ring(topology_, vertex, ring);
+    const float corner = vertex_sharpness(topology_, scheme_, vertex);
+    bool fades = is_semi_sharp(corner);
+    bool triangles = false;
+    for (const float sharpness : ring.sharpness) fades = fades || is_semi_sharp(sharpness);
+    for (const Index h : ring.corners) triangles = triangles || topology_.face_size(topology_.face(h)) == 3;
+    switch (vertex_rule(corner, ring.sharpness)) {
+      case VertexRule::Smooth:
+        row = !plain_triangles && triangles ? LimitRow::Special : LimitRow::Smooth;
+        break;
+      case VertexRule::Dart:
+        row = LimitRow::Special;
+        break;
+      case VertexRule::Crease:
+        row = fades ? LimitRow::Special : LimitRow::Curve;
+        break;
+      case VertexRule::Corner:
+        row = fades && !is_infinite(corner) ? LimitRow::Special : LimitRow::Fixed;
+        break;
+    }
+  }
+  if (row == LimitRow::Smooth && options_.masks == LimitMasks::OpenSubdiv && scheme_.kind == SchemeKind::CatmullClark &&
+      topology_.vertex_face_count(vertex) == 2) {
+    row = LimitRow::Fixed;
+  }
+  kinds_[vertex] = static_cast<std::uint8_t>(row);
+}
+
+void LimitMatrix::add_special_row(Index vertex, VertexRing& ring) {
+  const RingRules rules = ring_rules(topology_, scheme_, alpha(vertex), vertex, ring);
+  const RingMask mask = limit_position_mask(rules, options_.masks);
+  std::vector<std::pair<Index, double>> entries;
+  visit_ring(topology_, vertex, ring, mask, scheme_.kind == SchemeKind::CatmullClark,
+             [&](Index column, double weight) { entries.emplace_back(column, weight); });
+  std::stable_sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  special_vertices_.push_back(vertex);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (i > 0 && entries[i].first == entries[i - 1].first) {
+      special_weights_.back() += entries[i].second;
+    } else {
+      special_columns_.push_back(entries[i].first);
+      special_weights_.push_back(entries[i].second);
+    }
+  }
+  special_offsets_.push_back(special_columns_.size());
+}
+
+LimitMatrix::Weights LimitMatrix::smooth_weights(Index vertex, int valence) const {
+  const SmoothMask mask = limit_mask(scheme_.kind, valence, alpha(vertex));
+  return {mask.vertex, mask.edge, mask.face};
+}
+
+double LimitMatrix::row_scale(Index vertex) const {
+  if (row_kind(vertex) != LimitRow::Smooth) return 1.0;
+  const double n = topology_.vertex_face_count(vertex);
+  if (scheme_.kind == SchemeKind::CatmullClark) return n * (n + 5.0);
+  return 1.0 / limit_mask(SchemeKind::Loop, static_cast<int>(n)).edge;
+}
+
+std::pair<Index, Index> LimitMatrix::curve_neighbours(Index vertex) const {
+  if (topology_.is_boundary_vertex(vertex)) {
+    const Index first = topology_.vertex_half_edge(vertex);
+    Index last = first;
+    topology_.for_each_outgoing(vertex, [&](Index h) { last = h; });
+    return {topology_.destination(first), topology_.origin(topology_.previous(last))};
+  }
+  std::pair<Index, Index> ends(-1, -1);
+  topology_.for_each_outgoing(vertex, [&](Index h) {
+    if (!is_sharp(topology_.edge_sharpness(topology_.edge(h)))) return;
+    (ends.first < 0 ? ends.first : ends.second) = topology_.destination(h);
+  });
+  return ends;
+}
+
+Index LimitMatrix::special_place(Index vertex) const {
+  return static_cast<Index>(std::lower_bound(special_vertices_.begin(), special_vertices_.end(), vertex) -
+                            special_vertices_.begin());
+}
+
+template <int K>
+void LimitMatrix::apply_columns(const double* in, std::ptrdiff_t stride, Values& out) const {
+  const auto columns = K > 0 ? K : static_cast<int>(out.cols());
+  const auto add = [&](double* target, double weight, const double* row) {
+    for (int c = 0; c < (K > 0 ? K : columns); ++c) target[c] += weight * row[c];
+  };
+  const bool quads = scheme_.kind == SchemeKind::CatmullClark;
+  Buffer<double> face_means(quads ? static_cast<std::size_t>(topology_.face_count()) * columns : 0);
+  if (quads) {
+    parallel_for(topology_.face_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+      for (auto f = static_cast<Index>(begin); f < end; ++f) {
+        double* mean = face_means.data() + static_cast<std::ptrdiff_t>(f) * columns;
+        for (int c = 0; c < columns; ++c) mean[c] = 0.0;
+        const double share = 1.0 / topology_.face_size(f);
+        for (Index h = topology_.face_begin(f); h < topology_.face_end(f); ++h) {
+          add(mean, share, in + topology_.origin(h) * stride);
+        }
+      }
+    });
+  }
+  parallel_for(topology_.vertex_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (auto v = static_cast<Index>(begin); v < end; ++v) {
+      double* target = out.data() + static_cast<std::ptrdiff_t>(v) * columns;
+      for (int c = 0; c < columns; ++c) target[c] = 0.0;
+      if (row_kind(v) != LimitRow::Smooth) {
+        visit_row(v, [&](Index column, double weight) { add(target, weight, in + column * stride); });
+        continue;
+      }
+      int valence = 0;
+      topology_.for_each_outgoing(v, [&](Index /*h*/) { ++valence; });
+      const Weights weights = smooth_weights(v, valence);
+      topology_.for_each_outgoing(v, [&](Index h) {
+        add(target, weights.edge, in + topology_.destination(h) * stride);
+        if (quads) {
+          add(target, weights.face, face_means.data() + static_cast<std::ptrdiff_t>(topology_.face(h)) * columns);
+        }
+      });
+      add(target, weights.vertex, in + v * stride);
+    }
+  });
+}
+
+Values LimitMatrix::apply(ConstValuesRef values) const {
+  check_rows(topology_, values);
+  Values out(values.rows(), values.cols());
+  if (out.size() == 0) return out;
+  if (values.cols() == 3) {
+    apply_columns<3>(values.data(), values.outerStride(), out);
+  } else {
+    apply_columns<0>(values.data(), values.outerStride(), out);
+  }
+  return out;
+}
+
+Eigen::SparseMatrix<double, Eigen::RowMajor> LimitMatrix::matrix() const {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Index v = 0; v < topology_.vertex_count(); ++v) {
+    visit_row(v, [&](Index column, double weight) { entries.emplace_back(v, column, weight); });
+  }
+  Eigen::SparseMatrix<double, Eigen::RowMajor> matrix(topology_.vertex_count(), topology_.vertex_count());
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+LimitNormals limit_normals(const Topology& topology, const Scheme& scheme, ConstValuesRef control, LimitMasks masks) {
+  check_rows(topology, control);
+  check_triangles(topology, scheme);
+  if (control.cols() != 3) throw Error(ErrorCode::BadShape, "normals need three columns");
+  LimitNormals normals{Values::Zero(topology.vertex_count(), 3), Values::Zero(topology.half_edge_count(), 3)};
+  const bool quads = scheme.kind == SchemeKind::CatmullClark;
+  parallel_for(topology.vertex_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    VertexRing ring;
+    for (auto v = static_cast<Index>(begin); v < end; ++v) {
+      if (topology.is_isolated(v)) continue;
+      const RingRules rules = ring_rules(topology, scheme, scheme.alpha, v, ring);
+      const auto tangent = [&](const RingMask& mask) {
+        Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+        visit_ring(topology, v, ring, mask, quads,
+                   [&](Index column, double weight) { sum += weight * control.row(column); });
+        return sum;
+      };
+      const std::vector<RingSector> sectors = limit_sectors(rules, masks);
+      for (std::size_t s = 0; s < sectors.size(); ++s) {
+        const Eigen::RowVector3d cross = tangent(sectors[s].tangents.first).cross(tangent(sectors[s].tangents.second));
+        const double length = cross.norm();
+        if (!(length > 0.0)) continue;
+        if (s == 0) normals.vertices.row(v) = cross / length;
+        for (int i = 0; i < sectors[s].face_count; ++i) {
+          const auto j = static_cast<std::size_t>(sectors[s].first_face + i) % ring.corners.size();
+          normals.corners.row(ring.corners[j]) = cross / length;
+        }
+      }
+    }
+  });
+  return normals;
+}
+
+}  // namespace batten

@@ -1,0 +1,131 @@
+/// \file Where the control points' surface passes: limit positions and limit normals at the vertices.
+///
+/// The limit matrix A is V-by-V; row i takes control points P to the limit position of vertex i: A P. Rows by kind of vertex
+/// (MATH 1.1, 2.1, 3, 4.2): smooth [(n(n-1) + n alpha) v + (2 - alpha) sum e + 4 sum c]/(n(n+5)) on centroids c
+/// (Catmull-Clark) or (w v + sum e)/(w + n) (Loop); crease and boundary (a + 4 v + b)/6; corner and isolated v; a dart's row is
+/// its ring's left eigenvector; where tags still fade, the row of the surface once they have.
+#pragma once
+#include <Eigen/SparseCore>
+#include <vector>
+
+#include "batten/limit/ring_limit.h"
+#include "batten/mesh/topology.h"
+#include "batten/scheme/scheme.h"
+
+namespace batten {
+
+enum class LimitRow : std::uint8_t {
+  Fixed,   ///< the vertex itself: corners, vertices without faces
+  Curve,   ///< on a crease or boundary curve: itself and its two neighbours along it
+  Smooth,  ///< the ring, with weights that are symmetric after scaling by n(n+5) or w + n
+  Special  ///< stored weights: darts, semi-sharp surroundings, smooth triangles
+};
+
+struct LimitOptions {
+  LimitMasks masks = LimitMasks::Exact;
+  std::vector<double> vertex_alpha;  ///< empty, or Lai's alpha for each vertex instead of the scheme's
+};
+
+/// Build O(H); apply O(H k), matrix-free but for special rows. The topology must outlive the matrix. Safe to share.
+class LimitMatrix {
+ public:
+  /// Throws Error(NotTriangles) for Loop on other faces.
+  LimitMatrix(const Topology& topology, const Scheme& scheme, LimitOptions options = {});
+
+  const Topology& topology() const { return topology_; }
+  const Scheme& scheme() const { return scheme_; }
+  LimitRow row_kind(Index vertex) const { return static_cast<LimitRow>(kinds_[vertex]); }
+  double alpha(Index vertex) const {
+    return options_.vertex_alpha.empty() ? scheme_.alpha : options_.vertex_alpha[vertex];
+  }
+
+  /// A values: values is V-by-k. Throws Error(BadShape).
+  Values apply(ConstValuesRef values) const;
+
+  /// Calls visit(column, weight) for the entries of a row; a column may come several times.
+  template <typename Visit>
+  void visit_row(Index vertex, const Visit& visit) const;
+
+  /// The factor that makes the smooth rows symmetric among themselves: n(n+5), or w + n for Loop; 1 for other rows.
+  double row_scale(Index vertex) const;
+
+  /// The two neighbours along the curve of a Curve row.
+  std::pair<Index, Index> curve_neighbours(Index vertex) const;
+
+  Index special_count() const { return static_cast<Index>(special_vertices_.size()); }
+
+  Eigen::SparseMatrix<double, Eigen::RowMajor> matrix() const;
+
+ private:
+  struct Weights {
+    double vertex;
+    double edge;
+    double face;
+  };
+  void classify(Index vertex, VertexRing& ring);
+  void add_special_row(Index vertex, VertexRing& ring);
+  Weights smooth_weights(Index vertex, int valence) const;
+  template <int K>
+  void apply_columns(const double* in, std::ptrdiff_t stride, Values& out) const;
+  Index special_place(Index vertex) const;
+
+  const Topology& topology_;
+  Scheme scheme_;
+  LimitOptions options_;
+  Buffer<std::uint8_t> kinds_;
+  Buffer<Index> special_vertices_;  ///< ascending
+  Buffer<std::size_t> special_offsets_;
+  Buffer<Index> special_columns_;
+  Buffer<double> special_weights_;
+};
+
+/// Unit normals of the limit surface, outward for counter-clockwise faces.
+struct LimitNormals {
+  Values vertices;  ///< V-by-3: at a crease or corner the normal of the first sector; zero where there is none
+  Values corners;   ///< H-by-3: per half-edge, the normal of its own side at its origin
+};
+/// control: V-by-3. O(H). Throws Error(BadShape).
+LimitNormals limit_normals(const Topology& topology, const Scheme& scheme, ConstValuesRef control,
+                           LimitMasks masks = LimitMasks::Exact);
+
+template <typename Visit>
+void LimitMatrix::visit_row(Index vertex, const Visit& visit) const {
+  switch (row_kind(vertex)) {
+    case LimitRow::Fixed:
+      visit(vertex, 1.0);
+      return;
+    case LimitRow::Curve: {
+      const std::pair<Index, Index> ends = curve_neighbours(vertex);
+      visit(vertex, kCreaseLimitVertex);
+      visit(ends.first, kCreaseLimitNeighbour);
+      visit(ends.second, kCreaseLimitNeighbour);
+      return;
+    }
+    case LimitRow::Special: {
+      const Index place = special_place(vertex);
+      for (std::size_t i = special_offsets_[place]; i < special_offsets_[place + 1]; ++i) {
+        visit(special_columns_[i], special_weights_[i]);
+      }
+      return;
+    }
+    case LimitRow::Smooth:
+      break;
+  }
+  const Weights weights = smooth_weights(vertex, static_cast<int>(topology_.vertex_face_count(vertex)));
+  double centre = weights.vertex;
+  topology_.for_each_outgoing(vertex, [&](Index h) {
+    if (scheme_.kind == SchemeKind::Loop) return visit(topology_.destination(h), weights.edge);
+    // The face left of h, and the one right of it, each give every corner an equal share of the centroid's weight.
+    const double share = weights.face / topology_.face_size(topology_.face(h));
+    centre += share;
+    visit(topology_.destination(h), weights.edge + share +
+                                        weights.face / topology_.face_size(topology_.face(topology_.twin(h))));
+    const Index last = topology_.previous(h);
+    for (Index i = topology_.next(topology_.next(h)); i != last; i = topology_.next(i)) {
+      visit(topology_.origin(i), share);
+    }
+  });
+  visit(vertex, centre);
+}
+
+}  // namespace batten

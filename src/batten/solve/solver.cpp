@@ -1,0 +1,33 @@
+#include "batten/solve/solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "batten/error.h"
+#include "batten/parallel/parallel.h"
+
+namespace batten {
+
+void StopRule::report(double first, double now) const {
+  if (!progress) return;
+  const double whole = std::log(std::max(first, 1e-300) / std::max(tolerance, 1e-300));
+  const double done = whole > 0.0 ? std::log(std::max(first, 1e-300) / std::max(now, 1e-300)) / whole : 1.0;
+  if (!progress(std::clamp(done, 0.0, 1.0))) throw Error(ErrorCode::Cancelled, "cancelled");
+}
+
+double max_row_norm(const Values& values) {
+  const double squared = parallel_reduce(
+      values.rows(), 0.0,
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        double most = 0.0;
+        for (std::ptrdiff_t i = begin; i < end; ++i) {
+          const double norm = values.row(i).squaredNorm();
+          if (!(norm <= most)) most = norm;  // so that NaN wins
+        }
+        return most;
+      },
+      [](double a, double b) { return !(b <= a) ? b : a; });
+  return std::sqrt(squared);
+}
+
+}  // namespace batten

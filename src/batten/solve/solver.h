@@ -1,0 +1,46 @@
+/// \file The words that the solvers share.
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "batten/types.h"
+
+namespace batten {
+
+enum class SolveMethod {
+  Auto,
+  ConjugateGradient,  ///< on the symmetric scaled system, diagonal preconditioner
+  Chebyshev,          ///< semi-iteration in cache-sized tiles, mixed precision
+  Jacobi,             ///< damped Jacobi: Thall's iteration is omega = 1/2
+  Richardson,         ///< P + M - A P: Lai and Cheng's series
+  Direct              ///< sparse Cholesky, or LU where the system is not symmetric
+};
+
+/// What an iteration achieved.
+struct SolveReport {
+  SolveMethod method = SolveMethod::Auto;
+  std::string method_name;                ///< for people, with what was switched to, if anything
+  int iterations = 0;                     ///< applications of the matrix
+  std::vector<double> residual_history;   ///< max_i |target - A x|_i, each time it was measured, the start included
+  double seconds = 0.0;
+  bool converged = false;
+};
+
+/// When to stop: max_i |residual_i| <= tolerance, or after max_iterations.
+struct StopRule {
+  double tolerance = 0.0;
+  int max_iterations = 10000;
+  Progress progress;
+
+  /// Throws Error(Cancelled) when the progress callback says so. Done is a fraction on a logarithmic scale.
+  void report(double first, double now) const;
+};
+
+/// y = A x, both n-by-k.
+using LinearMap = std::function<void(const Values& x, Values& y)>;
+
+/// max over the rows of the row's Euclidean length; 0 for no rows. NaN if any number is.
+double max_row_norm(const Values& values);
+
+}  // namespace batten

@@ -1,0 +1,73 @@
+/// \file Polynomial iterations (Chebyshev, damped Jacobi, Richardson) for a sparse system, in tiles that stay in the cache.
+///
+/// Each iteration of a sweep over a large mesh would read every index and every vector from memory again. Here the unknowns
+/// are cut into tiles of a few thousand; a tile takes along the rings of unknowns around it that several steps reach, runs
+/// these steps in the core's own cache in float, and writes back its own unknowns. The result is that of the global
+/// iteration, step by step, to rounding (a "matrix powers kernel", Demmel and others 2008, key DHMY08), for one pass through memory
+/// every `kStepsPerRound` steps. Residuals are measured in double between the rounds and each round solves for a correction,
+/// so that the result is as exact as double allows.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "batten/buffer.h"
+#include "batten/solve/solver.h"
+
+namespace batten {
+
+/// The entries of one row; a column may come several times.
+struct RowEntries {
+  Buffer<Index> columns;
+  Buffer<double> weights;
+  void clear() {
+    columns.clear();
+    weights.clear();
+  }
+  void add(Index column, double weight) {
+    columns.push_back(column);
+    weights.push_back(weight);
+  }
+};
+
+/// A square system of which some unknowns are free and the others hold their values.
+class RowSource {
+ public:
+  virtual ~RowSource() = default;
+  virtual Index size() const = 0;
+  virtual bool is_free(Index row) const = 0;
+  /// Appends the entries of a free row; the diagonal must be positive. Called from several threads.
+  virtual void row(Index row, RowEntries& entries) const = 0;
+};
+
+struct IterationOptions {
+  SolveMethod method = SolveMethod::Chebyshev;  ///< or Jacobi, Richardson
+  double omega = 0.5;                           ///< Jacobi's damping
+  double lower_bound = 0.2;  ///< Chebyshev: of the spectrum of D^-1 A to start with; adapts to the measured convergence
+  double give_up_below = 0.0;  ///< Chebyshev: stop when the bound had to fall below this (the caller has a better method)
+};
+
+/// Build: O(nonzeros), 45 to 70 bytes an unknown. Safe to share between threads.
+class TiledIteration {
+ public:
+  static constexpr int kStepsPerRound = 8;
+
+  explicit TiledIteration(const RowSource& rows);
+  ~TiledIteration();
+  TiledIteration(TiledIteration&&) noexcept;
+
+  /// Solves A x = b for the free rows; x holds the start, and the values of the others. b and x: n-by-k.
+  SolveReport solve(ConstValuesRef b, ValuesRef x, const IterationOptions& options, const StopRule& stop) const;
+
+  /// An upper bound of the spectrum of D^-1 A, rigorous for a matrix similar to a symmetric one: 1 plus the largest
+  /// geometric mean of the off-diagonal row sums of two rows that share an entry (Brauer 1947, Brualdi 1982; keys B47, B82).
+  double upper_bound() const;
+
+  /// Unknowns held by all tiles, rings included, over unknowns: what the tiling costs.
+  double overlap() const;
+
+ private:
+  struct Tiles;
+  std::unique_ptr<Tiles> tiles_;
+};
+
+}  // namespace batten
