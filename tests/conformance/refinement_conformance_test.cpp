@@ -1,14 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <random>
 #include <set>
 
 #include "batten/error.h"
-#include "batten/mesh/primitives.h"
 #include "batten/refine/vertex_blend.h"
 #include "conformance/conformance_data.h"
 #include "conformance/opensubdiv_oracle.h"
+#include "support/shapes.h"
 
 namespace batten::test {
 namespace {
@@ -101,28 +100,6 @@ TEST_P(Shapes, RefineAsOpenSubdivDoesWithChaikinsCreases) {
 }
 
 // Chance tags: every mixture of sharpness that a vertex can meet, fading at different levels.
-
-Mesh with_random_tags(Mesh mesh, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> sharpness(-3.0, 4.0);  // no tag below 0; some tags are whole numbers
-  const auto draw = [&] {
-    const double value = sharpness(random);
-    return random() % 8 == 0 ? std::round(value) : random() % 16 == 0 ? 10.0 : value;
-  };
-  const Topology topology(mesh);
-  mesh.creases.clear();
-  mesh.corners.clear();
-  for (Index e = 0; e < topology.edge_count(); ++e) {
-    const Index h = topology.edge_half_edge(e);
-    const double value = draw();
-    if (value > 0.0) mesh.creases.push_back({topology.origin(h), topology.destination(h), value});
-  }
-  for (Index v = 0; v < topology.vertex_count(); v += 3) {
-    const double value = draw();
-    if (value > 0.0) mesh.corners.push_back({v, value});
-  }
-  return mesh;
-}
 
 TEST_P(Shapes, RefineAsOpenSubdivDoesWithRandomTags) {
   BATTEN_REQUIRE_DATA();

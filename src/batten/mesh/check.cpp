@@ -194,14 +194,15 @@ class Checker {
           }
         }
       }
-      if (orientable) report_flipped(members, colour);
+      if (orientable) report_flipped(std::move(members), colour);
     }
   }
 
-  void report_flipped(const std::vector<Index>& members, const std::vector<int>& colour) {
+  void report_flipped(std::vector<Index> members, const std::vector<int>& colour) {
     const auto odd = std::count_if(members.begin(), members.end(), [&](Index f) { return colour[f] == 1; });
     if (odd == 0) return;
     const int minority = 2 * odd <= static_cast<std::ptrdiff_t>(members.size()) ? 1 : 0;
+    std::sort(members.begin(), members.end());
     for (const Index f : members) {
       if (colour[f] != minority) continue;
       report(ErrorCode::InconsistentFaces,
