@@ -1,0 +1,46 @@
+/// \file What the rays meet: the surface as triangles with shading normals, in floats around the origin.
+#pragma once
+#include <Eigen/Geometry>
+
+#include "batten/render/render.h"
+
+namespace batten::render_detail {
+
+using Vec = Eigen::Vector3f;
+
+/// The shape's points go to (p - centre) * scale, inside the unit sphere, before they become floats.
+struct Frame {
+  Eigen::RowVector3d centre = Eigen::RowVector3d::Zero();
+  double scale = 1.0;
+  Eigen::RowVector3d lowest = Eigen::RowVector3d::Zero();  ///< of the bounding box, in the mesh's unit
+  Eigen::RowVector3d highest = Eigen::RowVector3d::Zero();
+
+  Vec apply(const Eigen::RowVector3d& point) const { return ((point - centre) * scale).transpose().cast<float>(); }
+};
+
+struct Triangles {
+  Buffer<Vec> points;                 ///< V, and one more that Embree may read past the end
+  Buffer<std::uint32_t> vertices;     ///< 3T
+  Buffer<std::uint32_t> normal_rows;  ///< 3T: rows of `normals`; empty: the same as `vertices`
+  Buffer<Vec> normals;                ///< unit length or zero; V, then one a corner of the mesh where it is split
+  Buffer<Vec> colors;                 ///< V or empty
+
+  std::size_t count() const { return vertices.size() / 3; }
+  std::uint32_t normal_row(std::size_t corner) const {
+    return normal_rows.empty() ? vertices[corner] : normal_rows[corner];
+  }
+};
+
+/// Throws Error(BadShape, IndexOutOfRange, NotFinite, BadArgument) for a scene that cannot be drawn.
+void check_scene(const Scene& scene);
+
+/// Of the surface's faces, the markers and the lines.
+Frame frame_of(const Scene& scene);
+
+Triangles triangles_of(const Scene& scene, const Frame& frame);
+
+/// Fills normals (and normal_rows of the fan triangles, whose corners in the mesh are given): the mean of a vertex's
+/// faces weighted by their angle there, apart for each run of faces that meet at less than 40 degrees.
+void compute_normals(const Mesh& mesh, const Buffer<std::uint32_t>& triangle_corners, Triangles& triangles);
+
+}  // namespace batten::render_detail

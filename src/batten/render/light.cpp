@@ -1,0 +1,154 @@
+#include "batten/render/light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "batten/parallel/parallel.h"
+
+namespace batten::render_detail {
+namespace {
+
+constexpr float kKeyRadius = 0.22F;  // tangent of the half-angle of the key's disc
+const Vec kKeyColor(2.05F, 1.93F, 1.75F);
+const Vec kSkyColor(0.66F, 0.70F, 0.76F);
+const Vec kBounceColor(0.40F, 0.37F, 0.33F);
+const Vec kFillColor(0.20F, 0.22F, 0.26F);
+constexpr float kGloss = 0.10F;
+constexpr float kRim = 0.22F;
+
+/// Where the ground lies in full shadow, this much of the background is left of each colour.
+const Vec kGroundShadow(0.50F, 0.52F, 0.56F);
+constexpr float kGroundKeyShare = 0.55F;
+
+/// Straight up to kKnee, then a shoulder that reaches 1 at infinity.
+float tone(float x) {
+  constexpr float kKnee = 0.62F;
+  return x < kKnee ? x : kKnee + (1.0F - kKnee) * (1.0F - std::exp((kKnee - x) / (1.0F - kKnee)));
+}
+
+float srgb(float linear) {
+  return linear <= 0.0031308F ? 12.92F * linear : 1.055F * std::pow(linear, 1.0F / 2.4F) - 0.055F;
+}
+
+/// sRGB bytes of linear values in [0, 1], by a table fine enough for the steep foot of the curve.
+class ByteTable {
+ public:
+  ByteTable() : bytes_(kSteps + 1) {
+    for (int i = 0; i <= kSteps; ++i)
+      bytes_[static_cast<std::size_t>(i)] =
+          static_cast<unsigned char>(std::lround(255.0F * srgb(static_cast<float>(i) / kSteps)));
+  }
+  unsigned char operator()(float linear) const {
+    return bytes_[static_cast<std::size_t>(std::clamp(linear, 0.0F, 1.0F) * kSteps + 0.5F)];
+  }
+
+ private:
+  static constexpr int kSteps = 1 << 15;
+  std::vector<unsigned char> bytes_;
+};
+
+}  // namespace
+
+Lamps::Lamps(const Camera& camera) : up(camera.world_up) {
+  // From the eye's upper left, with respect to the shape's own up. Seen from straight above, from the picture's top.
+  const Vec left = -camera.right;
+  Vec towards = -camera.forward + up.dot(camera.forward) * up;
+  if (towards.norm() < 1e-3F) towards = camera.up;
+  towards.normalize();
+  key = (0.50F * left + 0.62F * towards + 1.05F * up).normalized();
+  fill = (0.85F * camera.right + 0.45F * towards + 0.15F * up).normalized();
+  key_side = key.unitOrthogonal();
+  key_rise = key.cross(key_side);
+}
+
+float Lamps::key_cosine(const Vec& normal) const {
+  const float cosine = normal.dot(key);
+  if (cosine >= kKeyRadius) return cosine;
+  const float part = std::max(0.0F, cosine + kKeyRadius);
+  return part * part / (4.0F * kKeyRadius);
+}
+
+Vec Lamps::key_direction(float u, float v) const {
+  const float radius = kKeyRadius * std::sqrt(u);
+  const float angle = 2.0F * std::numbers::pi_v<float> * v;
+  return (key + radius * std::cos(angle) * key_side + radius * std::sin(angle) * key_rise).normalized();
+}
+
+Light reflect(const Lamps& lamps, const Surfel& surfel, const Vec& direction) {
+  const Vec& normal = surfel.normal;
+  const float cosine = lamps.key_cosine(normal);
+  const Vec half = (lamps.key - direction).normalized();
+  const float along = std::max(0.0F, half.dot(normal));
+  const float power4 = along * along * along * along;
+  const float power16 = power4 * power4 * power4 * power4;
+  const float gloss = kGloss * power16 * power16 * std::min(1.0F, 8.0F * cosine);
+  const float facing = std::clamp(1.0F + direction.dot(normal), 0.0F, 1.0F);
+  const float rim = kRim * facing * facing * facing * facing;
+  const float height = 0.5F + 0.5F * normal.dot(lamps.up);
+  const Vec sky = height * kSkyColor + (1.0F - height) * kBounceColor;
+  const Vec fill = std::max(0.0F, normal.dot(lamps.fill)) * kFillColor;
+  Light light;
+  light.key = (cosine * surfel.albedo + Vec::Constant(gloss)).cwiseProduct(kKeyColor);
+  light.ambient = surfel.albedo.cwiseProduct(sky + fill) + rim * sky;
+  return light;
+}
+
+Vec sky_direction(const Vec& normal, float u, float v) {
+  // A frame without a branch on small numbers (Duff et al. 2017).
+  const float sign = std::copysign(1.0F, normal.z());
+  const float a = -1.0F / (sign + normal.z());
+  const float b = normal.x() * normal.y() * a;
+  const Vec side(1.0F + sign * normal.x() * normal.x() * a, sign * b, -sign * normal.x());
+  const Vec rise(b, sign + normal.y() * normal.y() * a, -normal.y());
+  const float radius = std::sqrt(u);
+  const float angle = 2.0F * std::numbers::pi_v<float> * v;
+  return radius * std::cos(angle) * side + radius * std::sin(angle) * rise +
+         std::sqrt(std::max(0.0F, 1.0F - u)) * normal;
+}
+
+Eigen::Vector2f spread_point(std::uint32_t i) {
+  std::uint32_t x = 0;
+  std::uint32_t y = 0;
+  std::uint32_t bit = 1U << 31;
+  std::uint32_t column = 1U << 31;
+  for (; i != 0; i >>= 1, bit >>= 1, column ^= column >> 1) {
+    if ((i & 1U) == 0) continue;
+    x ^= bit;
+    y ^= column;
+  }
+  constexpr float kUnit = 1.0F / 4294967296.0F;
+  return {static_cast<float>(x >> 8) * 256.0F * kUnit, static_cast<float>(y >> 8) * 256.0F * kUnit};
+}
+
+float ground_share(float distance) {
+  const float t = std::clamp((kGroundEnd - distance) / (kGroundEnd - 1.4F), 0.0F, 1.0F);
+  return t * t * (3.0F - 2.0F * t);
+}
+
+void develop(const Layers& layers, const Color& background, Buffer<unsigned char>& pixels) {
+  const ByteTable bytes;
+  const auto width = static_cast<std::size_t>(layers.width);
+  pixels.resize(3 * width * static_cast<std::size_t>(layers.height));
+  const auto key = static_cast<std::size_t>(Plane::KeyRed);
+  const auto ambient = static_cast<std::size_t>(Plane::AmbientRed);
+  const auto at = [&](Plane plane, std::size_t i) { return layers.plane(plane)[i]; };
+  parallel_for_each(layers.height, [&](std::ptrdiff_t y) {
+    for (std::size_t i = static_cast<std::size_t>(y) * width; i < (static_cast<std::size_t>(y) + 1) * width; ++i) {
+      const float coverage = at(Plane::Coverage, i);
+      const float ground = at(Plane::GroundWeight, i);
+      const float seen =
+          kGroundKeyShare * at(Plane::GroundKeySeen, i) + (1.0F - kGroundKeyShare) * at(Plane::GroundSkySeen, i);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const float shade = 1.0F - (1.0F - kGroundShadow[static_cast<Eigen::Index>(c)]) * (1.0F - seen);
+        float value = background[c] * (1.0F - coverage - ground * (1.0F - shade));
+        if (coverage > 0.0F)
+          value += coverage * tone(layers.planes[key + c][i] * at(Plane::KeySeen, i) +
+                                   layers.planes[ambient + c][i] * at(Plane::SkySeen, i));
+        pixels[3 * i + c] = bytes(value);
+      }
+    }
+  });
+}
+
+}  // namespace batten::render_detail

@@ -1,0 +1,179 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "batten/parallel/parallel.h"
+#include "batten/render/geometry.h"
+
+namespace batten::render_detail {
+namespace {
+
+constexpr float kSplitCosine = 0.7660444F;  // of 40 degrees
+constexpr float kHalfCosine = 0.9396926F;   // of 20 degrees: any two within it of a third meet at less than 40
+
+Vec unit(const Vec& v) {
+  const float length = v.norm();
+  return length > 0.0F ? Vec(v / length) : Vec(Vec::Zero());
+}
+
+/// Newell's sum, which is right for polygons that are not planar or not convex.
+Vec face_normal(const Mesh& mesh, const Buffer<Vec>& points, Index face) {
+  const Index* v = mesh.face_vertices.data() + mesh.face_offsets[face];
+  const Index size = mesh.face_size(face);
+  Vec sum = Vec::Zero();
+  for (Index c = 1; c + 1 < size; ++c) sum += (points[v[c]] - points[v[0]]).cross(points[v[c + 1]] - points[v[0]]);
+  return unit(sum);
+}
+
+/// The faces' corners at each vertex: vertex v has corners[offsets[v]] to corners[offsets[v + 1]].
+struct Incidence {
+  Buffer<Index> offsets;
+  Buffer<Index> corners;
+  Buffer<Index> corner_faces;
+};
+
+Incidence incidence_of(const Mesh& mesh) {
+  const auto vertices = static_cast<std::size_t>(mesh.vertex_count());
+  Incidence incidence;
+  incidence.offsets.assign(vertices + 1, 0);
+  incidence.corners.resize(mesh.face_vertices.size());
+  incidence.corner_faces.resize(mesh.face_vertices.size());
+  for (const Index vertex : mesh.face_vertices) ++incidence.offsets[static_cast<std::size_t>(vertex)];
+  Index end = 0;
+  for (Index& offset : incidence.offsets) {
+    end += offset;
+    offset = end;
+  }
+  // Backwards, so that each vertex's corners come in the mesh's order and its offset ends at their beginning.
+  for (Index f = mesh.face_count() - 1; f >= 0; --f) {
+    for (Index c = mesh.face_offsets[f + 1] - 1; c >= mesh.face_offsets[f]; --c) {
+      incidence.corners[--incidence.offsets[mesh.face_vertices[c]]] = c;
+      incidence.corner_faces[c] = f;
+    }
+  }
+  return incidence;
+}
+
+/// One vertex at a time: its corners' weighted face normals, gathered by the runs of faces that meet smoothly.
+class VertexFan {
+ public:
+  VertexFan(const Mesh& mesh, const Incidence& incidence, const Buffer<Vec>& points, const Buffer<Vec>& face_normals)
+      : mesh_(mesh), incidence_(incidence), points_(points), face_normals_(face_normals) {}
+
+  /// The vertex's normal goes to normals[vertex]; where its faces do not all meet smoothly, also each corner's to
+  /// normals[vertex_count + corner], and the result is true.
+  bool process(Index vertex, Buffer<Vec>& normals) {
+    begin_ = incidence_.offsets[vertex];
+    size_ = incidence_.offsets[vertex + 1] - begin_;
+    weights_.resize(static_cast<std::size_t>(size_));
+    Vec sum = Vec::Zero();
+    for (Index i = 0; i < size_; ++i) {
+      weights_[i] = angle(vertex, corner(i));
+      sum += weights_[i] * normal(i);
+    }
+    const Vec mean = unit(sum);
+    normals[vertex] = mean;
+    bool smooth = true;
+    for (Index i = 0; i < size_; ++i) smooth = smooth && mean.dot(normal(i)) > kHalfCosine;
+    if (smooth) return false;
+    find_groups();
+    const bool split = std::any_of(groups_.begin(), groups_.end(), [](Index group) { return group != 0; });
+    if (!split) return false;
+    sums_.assign(static_cast<std::size_t>(size_), Vec::Zero());
+    for (Index i = 0; i < size_; ++i) sums_[groups_[i]] += weights_[i] * normal(i);
+    for (Index i = 0; i < size_; ++i) normals[mesh_.vertex_count() + corner(i)] = unit(sums_[groups_[i]]);
+    return true;
+  }
+
+ private:
+  Index corner(Index i) const { return incidence_.corners[begin_ + i]; }
+  const Vec& normal(Index i) const { return face_normals_[incidence_.corner_faces[corner(i)]]; }
+
+  Index neighbour(Index at, Index step) const {
+    const Index face = incidence_.corner_faces[at];
+    const Index first = mesh_.face_offsets[face];
+    const Index size = mesh_.face_size(face);
+    return mesh_.face_vertices[first + (at - first + step + size) % size];
+  }
+
+  float angle(Index vertex, Index at) const {
+    const Vec a = points_[neighbour(at, 1)] - points_[vertex];
+    const Vec b = points_[neighbour(at, -1)] - points_[vertex];
+    return std::atan2(a.cross(b).norm(), a.dot(b));
+  }
+
+  /// groups_[i]: the lowest corner of i's run. Corners that share an edge stand together once the edges are sorted.
+  void find_groups() {
+    groups_.resize(static_cast<std::size_t>(size_));
+    std::iota(groups_.begin(), groups_.end(), 0);
+    edges_.clear();
+    for (Index i = 0; i < size_; ++i) {
+      edges_.emplace_back(neighbour(corner(i), 1), i);
+      edges_.emplace_back(neighbour(corner(i), -1), i);
+    }
+    std::sort(edges_.begin(), edges_.end());
+    for (std::size_t e = 0; e + 1 < edges_.size(); ++e) {
+      if (edges_[e].first != edges_[e + 1].first) continue;
+      const Index a = edges_[e].second;
+      const Index b = edges_[e + 1].second;
+      if (normal(a).dot(normal(b)) < kSplitCosine) continue;
+      const Index low = std::min(root(a), root(b));
+      groups_[root(a)] = low;
+      groups_[root(b)] = low;
+    }
+    for (Index i = 0; i < size_; ++i) groups_[i] = root(i);
+  }
+
+  Index root(Index i) const {
+    while (groups_[i] != i) i = groups_[i];
+    return i;
+  }
+
+  const Mesh& mesh_;
+  const Incidence& incidence_;
+  const Buffer<Vec>& points_;
+  const Buffer<Vec>& face_normals_;
+  Index begin_ = 0;
+  Index size_ = 0;
+  std::vector<float> weights_;
+  std::vector<Index> groups_;
+  std::vector<Vec> sums_;
+  std::vector<std::pair<Index, Index>> edges_;
+};
+
+}  // namespace
+
+void compute_normals(const Mesh& mesh, const Buffer<std::uint32_t>& triangle_corners, Triangles& triangles) {
+  Buffer<Vec> face_normals(static_cast<std::size_t>(mesh.face_count()));
+  parallel_for(mesh.face_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (auto f = static_cast<Index>(begin); f < end; ++f)
+      face_normals[f] = mesh.face_size(f) >= 3 ? face_normal(mesh, triangles.points, f) : Vec(Vec::Zero());
+  });
+  const Incidence incidence = incidence_of(mesh);
+  const auto vertices = static_cast<std::size_t>(mesh.vertex_count());
+  triangles.normals.resize(vertices + mesh.face_vertices.size());
+  Buffer<std::uint8_t> split(vertices);
+  const int any_split = parallel_reduce<int>(
+      mesh.vertex_count(), 0,
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        VertexFan fan(mesh, incidence, triangles.points, face_normals);
+        int any = 0;
+        for (auto v = static_cast<Index>(begin); v < end; ++v) {
+          split[v] = fan.process(v, triangles.normals) ? 1 : 0;
+          any |= split[v];
+        }
+        return any;
+      },
+      [](int a, int b) { return a | b; });
+  if (any_split == 0) return;
+  triangles.normal_rows.resize(triangle_corners.size());
+  parallel_for(static_cast<std::ptrdiff_t>(triangle_corners.size()), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (std::ptrdiff_t c = begin; c < end; ++c) {
+      const std::uint32_t vertex = triangles.vertices[c];
+      triangles.normal_rows[c] =
+          split[vertex] != 0 ? static_cast<std::uint32_t>(vertices) + triangle_corners[c] : vertex;
+    }
+  });
+}
+
+}  // namespace batten::render_detail

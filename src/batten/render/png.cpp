@@ -1,0 +1,70 @@
+#include <png.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "batten/error.h"
+#include "batten/render/render.h"
+
+namespace batten {
+namespace {
+
+void append_bytes(png_structp png, png_bytep bytes, png_size_t count) {
+  auto& out = *static_cast<Buffer<unsigned char>*>(png_get_io_ptr(png));
+  out.insert(out.end(), bytes, bytes + count);
+}
+
+void flush_nothing(png_structp /*png*/) {}
+
+/// libpng leaves by longjmp when it fails, so nothing with a destructor may live in this frame.
+bool encode(png_structp png, png_infop info, const Picture& picture, Buffer<unsigned char>& out) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  png_set_write_fn(png, &out, append_bytes, flush_nothing);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(picture.width), static_cast<png_uint_32>(picture.height), 8,
+               PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+  // Level 4 with one filter takes a third of the default's time for files a few percent larger.
+  png_set_compression_level(png, 4);
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
+  png_write_info(png, info);
+  const std::size_t stride = static_cast<std::size_t>(picture.width) * 3;
+  for (int y = 0; y < picture.height; ++y)
+    png_write_row(png, picture.pixels.data() + stride * static_cast<std::size_t>(y));
+  png_write_end(png, info);
+  return true;
+}
+
+}  // namespace
+
+Buffer<unsigned char> encode_png(const Picture& picture) {
+  const bool sized = picture.width > 0 && picture.height > 0 &&
+                     picture.pixels.size() == std::size_t{3} * static_cast<std::size_t>(picture.width) *
+                                                  static_cast<std::size_t>(picture.height);
+  if (!sized) throw Error(ErrorCode::BadShape, "a picture needs width * height * 3 bytes, and both sizes above 0");
+  Buffer<unsigned char> out;
+  out.reserve(picture.pixels.size() / 4);
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
+  const bool written = info != nullptr && encode(png, info, picture, out);
+  png_destroy_write_struct(&png, &info);
+  if (!written) throw Error(ErrorCode::BadShape, "libpng refuses a picture of this size; ask for a smaller one");
+  return out;
+}
+
+void write_png(const std::string& path, const Picture& picture) {
+  const Buffer<unsigned char> bytes = encode_png(picture);
+  const std::string temporary = path + ".part";
+  std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
+  file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  std::error_code failure;
+  if (file.good()) std::filesystem::rename(temporary, path, failure);
+  if (!file.good() || failure) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    throw Error(ErrorCode::FileNotWritable, "cannot write " + path + "; check that the folder exists and is writable");
+  }
+}
+
+}  // namespace batten

@@ -1,0 +1,48 @@
+/// \file From rays to layers, one square of pixels at a time.
+#pragma once
+#include "batten/render/light.h"
+#include "batten/render/rays.h"
+
+namespace batten::render_detail {
+
+struct Square;
+
+/// Const while it traces: squares may be traced by several threads at once.
+class Tracer {
+ public:
+  static constexpr int kSquare = 32;  ///< a multiple of 4, so that the samples' pattern does not break
+
+  Tracer(const Scene& scene, const RenderOptions& options, const Triangles& triangles, const Rays& rays,
+         const Camera& camera);
+
+  /// Fills the layers' pixels [left, left + kSquare) by [top, top + kSquare), as far as they are in the picture.
+  void trace_square(int left, int top, Layers& layers) const;
+
+ private:
+  Vec direction(float x, float y) const;
+  void trace_eye_rays(Square& square) const;
+  void take_hit(Square& square, std::size_t sample, const Vec& towards, const RTCRayHit16& rays, int lane) const;
+  void take_ground(Square& square, std::size_t sample, const Vec& towards) const;
+  void trace_light_rays(Square& square) const;
+  int pattern_row(const Square& square, std::size_t sample) const;
+  Surfel surface_surfel(unsigned triangle, float u, float v, const Vec& towards) const;
+  Surfel overlay_surfel(Part part, const Vec& position, const Vec& normal) const;
+
+  const Triangles& triangles_;
+  const Rays& rays_;
+  const Camera camera_;
+  const Lamps lamps_;
+  const int width_;
+  const int height_;
+  const int samples_;  ///< a pixel
+  const bool has_ground_;
+  Vec surface_color_;
+  Vec back_color_;
+  Vec marker_color_;
+  Vec line_color_;
+  std::vector<Eigen::Vector2f> offsets_;  ///< of a pixel's samples, in pixels
+  std::vector<Eigen::Vector2f> pattern_;  ///< 16 times as many
+  std::vector<Vec> key_directions_;       ///< of the pattern
+};
+
+}  // namespace batten::render_detail

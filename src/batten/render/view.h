@@ -1,0 +1,26 @@
+/// \file Where the eye stands: the default view and the fit.
+#pragma once
+#include "batten/render/geometry.h"
+
+namespace batten::render_detail {
+
+/// In the frame's units. A pixel's ray runs from `eye` along forward + x * right + y * up, where x and y are the
+/// tangents at the picture plane, in [-tangent_x, tangent_x] and [-tangent_y, tangent_y].
+struct Camera {
+  Vec eye;
+  Vec right;
+  Vec up;
+  Vec forward;
+  float tangent_x;
+  float tangent_y;
+  Vec world_up;         ///< of the scene
+  float ground_height;  ///< the lowest point along world_up
+};
+
+/// Y or Z, by the rule that UpAxis states.
+UpAxis resolve_up(const Scene& scene, const Frame& frame, UpAxis asked);
+
+/// Throws Error(BadArgument) for a view that is zero or not finite.
+Camera camera_of(const Scene& scene, const Frame& frame, const RenderOptions& options);
+
+}  // namespace batten::render_detail
