@@ -1,0 +1,157 @@
+#include "batten/interpolate/free_block.h"
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseLU>
+#include <chrono>
+#include <cmath>
+
+#include "batten/error.h"
+#include "batten/parallel/parallel.h"
+#include "batten/solve/krylov.h"
+
+namespace batten {
+
+namespace {
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Two solves: the second one for what rounding left of the residual.
+template <typename Factors>
+void solve_refined(const Factors& factors, const SparseMatrix& a, const Values& b, Values& x) {
+  Eigen::MatrixXd solution = factors.solve(Eigen::MatrixXd(b));
+  solution += Eigen::MatrixXd(factors.solve(Eigen::MatrixXd(b - a * solution)));
+  x = solution;
+}
+
+}  // namespace
+
+FreeBlock::FreeBlock(const LimitMatrix& matrix, Buffer<std::uint8_t> free) : matrix_(matrix), free_(std::move(free)) {
+  for (Index v = 0; v < size(); ++v) {
+    if (free_[v] == 0) continue;
+    ++free_count_;
+    symmetric_ = symmetric_ && matrix.row_kind(v) == LimitRow::Smooth;
+  }
+}
+
+void FreeBlock::row(Index row, RowEntries& entries) const {
+  matrix_.visit_row(row, [&](Index column, double weight) { entries.add(column, weight); });
+}
+
+double FreeBlock::entry_count() const {
+  const Topology& topology = matrix_.topology();
+  if (matrix_.scheme().kind == SchemeKind::Loop) return 2.0 * topology.edge_count();
+  double count = 0.0;
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    const double size = topology.face_size(f);
+    count += size * (size - 2.0);
+  }
+  return count;
+}
+
+Values FreeBlock::masked(ConstValuesRef values) const {
+  Values result = values;
+  parallel_for(result.rows(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (std::ptrdiff_t v = begin; v < end; ++v) {
+      if (free_[v] == 0) result.row(v).setZero();
+    }
+  });
+  return result;
+}
+
+LinearMap FreeBlock::map() const {
+  return [this](const Values& x, Values& y) { y = masked(matrix_.apply(x)); };
+}
+
+SolveReport FreeBlock::solve_krylov(ConstValuesRef targets, Values& x, const StopRule& stop) const {
+  const auto start = std::chrono::steady_clock::now();
+  Eigen::VectorXd scale = Eigen::VectorXd::Ones(size());
+  Eigen::VectorXd diagonal = Eigen::VectorXd::Ones(size());
+  bool positive = true;
+  for (Index v = 0; v < size(); ++v) {
+    if (free_[v] == 0) continue;
+    double entry = 0.0;
+    matrix_.visit_row(v, [&](Index column, double weight) { entry += column == v ? weight : 0.0; });
+    scale[v] = matrix_.row_scale(v);
+    diagonal[v] = entry;
+    positive = positive && entry > 0.0;
+  }
+  const Values b = masked(targets);
+  SolveReport report;
+  KrylovReport krylov;
+  if (symmetric_ && positive) {
+    report.method = SolveMethod::ConjugateGradient;
+    report.method_name = "conjugate gradients";
+    krylov = conjugate_gradients(map(), scale, scale.cwiseProduct(diagonal), b, x, stop);
+  }
+  if (!krylov.converged && (!symmetric_ || !positive || krylov.indefinite)) {
+    const KrylovReport first = krylov;
+    report.method_name = first.iterations > 0 ? "conjugate gradients (indefinite), then BiCGSTAB" : "BiCGSTAB";
+    krylov = bicgstab(map(), diagonal, b, x, stop);
+    krylov.iterations += first.iterations;
+    krylov.residual_history.insert(krylov.residual_history.begin(), first.residual_history.begin(),
+                                   first.residual_history.end());
+  }
+  report.iterations = krylov.iterations;
+  report.residual_history = krylov.residual_history;
+  report.converged = krylov.converged;
+  report.seconds = seconds_since(start);
+  return report;
+}
+
+SolveReport FreeBlock::solve_direct(ConstValuesRef targets, Values& x, const StopRule& stop) const {
+  const auto start = std::chrono::steady_clock::now();
+  SolveReport report;
+  report.method = SolveMethod::Direct;
+  std::vector<Index> place(static_cast<std::size_t>(size()), -1);
+  Index count = 0;
+  for (Index v = 0; v < size(); ++v) {
+    if (free_[v] != 0) place[v] = count++;
+  }
+  Values b(count, x.cols());
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Index v = 0; v < size(); ++v) {
+    if (place[v] < 0) continue;
+    const double scale = matrix_.row_scale(v);
+    b.row(place[v]) = scale * targets.row(v);
+    matrix_.visit_row(v, [&](Index column, double weight) {
+      if (place[column] >= 0) {
+        entries.emplace_back(place[v], place[column], scale * weight);
+      } else {
+        b.row(place[v]) -= scale * weight * x.row(column);
+      }
+    });
+  }
+  SparseMatrix a(count, count);
+  a.setFromTriplets(entries.begin(), entries.end());
+  std::vector<Eigen::Triplet<double>>().swap(entries);
+  Values solution;
+  bool solved = false;
+  if (symmetric_) {
+    const Eigen::SimplicialLDLT<SparseMatrix> factors(a);
+    solved = factors.info() == Eigen::Success && (count == 0 || factors.vectorD().minCoeff() > 1e-12);
+    report.method_name = "sparse Cholesky";
+    if (solved) solve_refined(factors, a, b, solution);
+  }
+  if (!solved) {
+    Eigen::SparseLU<SparseMatrix> factors(a);
+    if (factors.info() != Eigen::Success) {
+      throw Error(ErrorCode::SingularSystem, "the interpolation system is singular: " + factors.lastErrorMessage());
+    }
+    report.method_name = "sparse LU";
+    solve_refined(factors, a, b, solution);
+  }
+  for (Index v = 0; v < size(); ++v) {
+    if (place[v] >= 0) x.row(v) = solution.row(place[v]);
+  }
+  report.iterations = 2;
+  report.residual_history = {max_row_norm(masked(Values(targets - matrix_.apply(x))))};
+  report.converged = report.residual_history.back() <= stop.tolerance;
+  report.seconds = seconds_since(start);
+  return report;
+}
+
+}  // namespace batten

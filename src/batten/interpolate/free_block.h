@@ -1,0 +1,43 @@
+/// \file The free rows of the limit matrix as a linear system, for the solvers.
+#pragma once
+#include "batten/limit/limit_matrix.h"
+#include "batten/solve/solver.h"
+#include "batten/solve/tiled_iteration.h"
+
+namespace batten {
+
+/// Which rows of a limit matrix are unknowns; the others hold their values.
+class FreeBlock : public RowSource {
+ public:
+  /// free: one flag a vertex.
+  FreeBlock(const LimitMatrix& matrix, Buffer<std::uint8_t> free);
+
+  Index size() const override { return static_cast<Index>(free_.size()); }
+  bool is_free(Index row) const override { return free_[row] != 0; }
+  void row(Index row, RowEntries& entries) const override;
+
+  Index free_count() const { return free_count_; }
+  /// True when the free rows are symmetric after scaling: smooth rows only.
+  bool is_symmetric() const { return symmetric_; }
+  /// Sum over the free rows of their number of entries.
+  double entry_count() const;
+
+  /// Conjugate gradients where symmetric, else stabilised bi-conjugate gradients; falls back from the first to the second
+  /// where the block turns out indefinite, and from that to the direct solver.
+  SolveReport solve_krylov(ConstValuesRef targets, Values& x, const StopRule& stop) const;
+
+  /// Sparse Cholesky where symmetric and definite, else LU; one step of iterative refinement. Memory grows with the fill.
+  /// Throws Error(SingularSystem).
+  SolveReport solve_direct(ConstValuesRef targets, Values& x, const StopRule& stop) const;
+
+ private:
+  Values masked(ConstValuesRef values) const;
+  LinearMap map() const;
+
+  const LimitMatrix& matrix_;
+  Buffer<std::uint8_t> free_;
+  Index free_count_ = 0;
+  bool symmetric_ = true;
+};
+
+}  // namespace batten

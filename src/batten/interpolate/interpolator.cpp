@@ -1,0 +1,289 @@
+#include "batten/interpolate/interpolator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "batten/error.h"
+#include "batten/interpolate/crease_curves.h"
+#include "batten/interpolate/free_block.h"
+#include "batten/interpolate/singular_components.h"
+#include "batten/parallel/parallel.h"
+
+namespace batten {
+
+namespace {
+
+/// Where tiles cost more than they save: rows of huge faces, or rings that grow too fast.
+constexpr double kMostEntriesPerVertex = 40.0;
+constexpr double kMostOverlap = 6.0;
+/// Chebyshev starts from the spectrum of regular meshes: [1/4, 9/4] on quads, [1/2, 2] on triangles (MATH 3).
+constexpr double kQuadLowerBound = 0.21;
+constexpr double kLoopLowerBound = 0.44;
+/// Below this, conjugate gradients need fewer passes than a fixed polynomial.
+constexpr double kGiveUpBelow = 0.03;
+constexpr double kSingularAlpha = 0.5;
+constexpr double kValenceTwoAlpha = 1.0;
+
+bool is_iteration(SolveMethod method) {
+  return method == SolveMethod::Chebyshev || method == SolveMethod::Jacobi || method == SolveMethod::Richardson;
+}
+
+const char* name_of(SolveMethod method) {
+  switch (method) {
+    case SolveMethod::Chebyshev:
+      return "Chebyshev in tiles";
+    case SolveMethod::Jacobi:
+      return "damped Jacobi (Thall)";
+    case SolveMethod::Richardson:
+      return "Richardson (Lai and Cheng)";
+    default:
+      return "conjugate gradients";
+  }
+}
+
+/// Puts a second run's report behind a first one's.
+void append(SolveReport& report, const SolveReport& next, const char* joint) {
+  report.method_name += report.method_name.empty() ? next.method_name : joint + next.method_name;
+  report.method = next.method;
+  report.iterations += next.iterations;
+  report.seconds += next.seconds;
+  report.converged = next.converged;
+  report.residual_history.insert(report.residual_history.end(), next.residual_history.begin(),
+                                 next.residual_history.end());
+}
+
+}  // namespace
+
+struct Interpolator::Parts {
+  const Topology& topology;
+  Scheme scheme;
+  InterpolateOptions options;
+  LimitMatrix matrix;
+  CreaseCurves curves;
+  std::vector<SingularComponent> singular;
+  Buffer<Index> valence_two;
+  std::unique_ptr<FreeBlock> block;
+  std::unique_ptr<TiledIteration> tiles;
+
+  Parts(const Topology& topology_in, const Scheme& scheme_in, const InterpolateOptions& options_in)
+      : topology(topology_in),
+        scheme(scheme_in),
+        options(options_in),
+        matrix(topology_in, scheme_in, {options_in.masks, {}}),
+        curves(find_crease_curves(matrix)),
+        singular(find_singular_components(matrix)),
+        valence_two(find_valence_two_components(matrix)) {
+    Buffer<std::uint8_t> free(static_cast<std::size_t>(topology.vertex_count()));
+    for (Index v = 0; v < topology.vertex_count(); ++v) {
+      const LimitRow row = matrix.row_kind(v);
+      free[v] = row == LimitRow::Smooth || row == LimitRow::Special ? 1 : 0;
+    }
+    for (const Index v : curves.coupled) free[v] = 1;
+    for (const SingularComponent& component : singular) {
+      for (const Index v : component.vertices) free[v] = 0;
+    }
+    block = std::make_unique<FreeBlock>(matrix, std::move(free));
+    if (wants_tiles()) tiles = std::make_unique<TiledIteration>(*block);
+    if (tiles != nullptr && options.method == SolveMethod::Auto && tiles->overlap() > kMostOverlap) tiles.reset();
+  }
+
+  bool wants_tiles() const {
+    if (is_iteration(options.method)) return true;
+    return options.method == SolveMethod::Auto && block->is_symmetric() &&
+           block->entry_count() <= kMostEntriesPerVertex * topology.vertex_count();
+  }
+
+  SolveReport iterate(SolveMethod method, ConstValuesRef targets, Values& x, const StopRule& stop) const {
+    IterationOptions iteration;
+    iteration.method = method;
+    iteration.omega = options.omega;
+    iteration.lower_bound = scheme.kind == SchemeKind::Loop ? kLoopLowerBound : kQuadLowerBound;
+    iteration.give_up_below = options.method == SolveMethod::Auto ? kGiveUpBelow : 0.0;
+    SolveReport report = tiles->solve(targets, x, iteration, stop);
+    report.method_name = name_of(method);
+    return report;
+  }
+
+  SolveReport solve_block(ConstValuesRef targets, Values& x, const StopRule& stop) const {
+    SolveReport report;
+    report.converged = true;
+    if (block->free_count() == 0) {
+      report.method_name = "none needed";
+      return report;
+    }
+    if (options.method == SolveMethod::Direct) return block->solve_direct(targets, x, stop);
+    if (is_iteration(options.method)) return iterate(options.method, targets, x, stop);
+    if (options.method == SolveMethod::ConjugateGradient) return block->solve_krylov(targets, x, stop);
+    const Values start = x;
+    if (tiles != nullptr) {
+      report = iterate(SolveMethod::Chebyshev, targets, x, stop);
+      if (report.converged) return report;
+      if (!x.allFinite()) x = start;
+    }
+    append(report, block->solve_krylov(targets, x, stop), ", then ");
+    if (!report.converged) {
+      x = start;
+      append(report, block->solve_direct(targets, x, stop), ", then ");
+    }
+    return report;
+  }
+
+  std::string component_name(const SingularComponent& component) const {
+    return "the component of vertex " + std::to_string(component.vertices.front()) + " (" +
+           std::to_string(component.vertices.size()) + " vertices)";
+  }
+
+  /// The targets' part along the null vector, which no control points reach.
+  Eigen::RowVectorXd null_part(const SingularComponent& component, ConstValuesRef targets) const {
+    Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(targets.cols());
+    for (std::size_t i = 0; i < component.vertices.size(); ++i) {
+      sum += component.sign[i] * targets.row(component.vertices[i]);
+    }
+    return sum / static_cast<double>(component.vertices.size());
+  }
+
+  /// One component after the other; all are small in practice, and conjugate gradients keep to the complement of the null vector.
+  void solve_singular(ConstValuesRef targets, const StopRule& stop, Interpolant& result) const {
+    Values aims = targets;
+    Buffer<std::uint8_t> plain(static_cast<std::size_t>(topology.vertex_count()), 0);
+    Buffer<std::uint8_t> damped(static_cast<std::size_t>(topology.vertex_count()), 0);
+    for (const SingularComponent& component : singular) {
+      const Eigen::RowVectorXd missed = null_part(component, targets);
+      bool alpha = false;
+      if (missed.norm() > stop.tolerance) {
+        if (options.on_singular == OnSingular::Refuse) {
+          throw Error(ErrorCode::SingularSystem,
+                      "no surface passes through these targets on " + component_name(component) +
+                          ": every vertex has valence 3 and the edges are two-colourable; choose alpha or least squares " +
+                          "(--on-singular alpha|least-squares)");
+        }
+        alpha = options.on_singular == OnSingular::Alpha;
+      }
+      for (std::size_t i = 0; i < component.vertices.size(); ++i) {
+        const Index v = component.vertices[i];
+        (alpha ? damped : plain)[v] = 1;
+        if (!alpha) aims.row(v) -= component.sign[i] * missed;
+      }
+    }
+    solve_part(matrix, std::move(plain), aims, stop, result);
+    solve_with_alpha(damped, kSingularAlpha, targets, stop, result);
+  }
+
+  static void solve_part(const LimitMatrix& a, Buffer<std::uint8_t> free, ConstValuesRef targets, const StopRule& stop,
+                         Interpolant& result) {
+    const FreeBlock part(a, std::move(free));
+    if (part.free_count() == 0) return;
+    append(result.report, part.solve_krylov(targets, result.control, stop), "; ");
+  }
+
+  void solve_with_alpha(const Buffer<std::uint8_t>& vertices, double alpha, ConstValuesRef targets, const StopRule& stop,
+                        Interpolant& result) const {
+    if (std::count(vertices.begin(), vertices.end(), 1) == 0) return;
+    if (result.vertex_alpha.empty()) {
+      result.vertex_alpha.assign(static_cast<std::size_t>(topology.vertex_count()), scheme.alpha);
+    }
+    for (Index v = 0; v < topology.vertex_count(); ++v) {
+      if (vertices[v] == 0) continue;
+      result.vertex_alpha[v] = alpha;
+      result.control.row(v) = targets.row(v);
+    }
+    const LimitMatrix damped(topology, scheme, {options.masks, result.vertex_alpha});
+    solve_part(damped, vertices, targets, stop, result);
+  }
+
+  /// The block failed, and there are vertices of valence 2, where it may be singular: alpha = 1 makes it definite.
+  void rescue_valence_two(ConstValuesRef targets, const StopRule& stop, Interpolant& result) const {
+    if (valence_two.empty() || options.on_singular != OnSingular::Alpha || scheme.kind == SchemeKind::Loop) return;
+    Buffer<std::uint8_t> vertices(static_cast<std::size_t>(topology.vertex_count()), 0);
+    for (const Index v : valence_two) vertices[v] = matrix.row_kind(v) == LimitRow::Smooth ? 1 : 0;
+    solve_with_alpha(vertices, kValenceTwoAlpha, targets, stop, result);
+  }
+
+  void measure(ConstValuesRef targets, Interpolant& result) const {
+    Values errors = result.vertex_alpha.empty()
+                        ? matrix.apply(result.control)
+                        : LimitMatrix(topology, scheme, {options.masks, result.vertex_alpha}).apply(result.control);
+    errors -= targets;
+    std::vector<VertexError> all(static_cast<std::size_t>(errors.rows()));
+    double squares = 0.0;
+    for (Index v = 0; v < topology.vertex_count(); ++v) {
+      all[v] = {v, errors.row(v).norm()};
+      squares += all[v].error * all[v].error;
+      result.max_movement = std::max(result.max_movement, (result.control.row(v) - targets.row(v)).norm());
+    }
+    const auto worst = std::min<std::size_t>(10, all.size());
+    std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(worst), all.end(),
+                      [](const VertexError& a, const VertexError& b) {
+                        return a.error != b.error ? a.error > b.error : a.vertex < b.vertex;
+                      });
+    result.worst.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(worst));
+    result.max_error = all.empty() ? 0.0 : all.front().error;
+    result.rms_error = all.empty() ? 0.0 : std::sqrt(squares / static_cast<double>(all.size()));
+  }
+};
+
+Interpolator::Interpolator(const Topology& topology, const Scheme& scheme, const InterpolateOptions& options)
+    : parts_(std::make_unique<Parts>(topology, scheme, options)) {
+  if (!(options.tolerance > 0.0)) throw Error(ErrorCode::BadArgument, "the tolerance must be positive");
+  if (!(options.omega > 0.0)) throw Error(ErrorCode::BadArgument, "omega must be positive");
+}
+
+Interpolator::~Interpolator() = default;
+Interpolator::Interpolator(Interpolator&&) noexcept = default;
+
+const LimitMatrix& Interpolator::limit_matrix() const { return parts_->matrix; }
+
+Interpolant Interpolator::solve(ConstValuesRef targets, const Progress& progress) const {
+  const Parts& parts = *parts_;
+  if (targets.rows() != parts.topology.vertex_count()) {
+    throw Error(ErrorCode::BadShape, "targets has " + std::to_string(targets.rows()) + " rows, but the mesh has " +
+                                         std::to_string(parts.topology.vertex_count()) + " vertices");
+  }
+  if (!targets.allFinite()) throw Error(ErrorCode::NotFinite, "the targets hold a number that is not finite");
+  Interpolant result;
+  result.control = targets;
+  result.singular_components = static_cast<Index>(parts.singular.size());
+  const double diagonal = bounding_diagonal(targets);
+  // Rounding of the targets themselves is the floor of what can be asked for.
+  const double floor = 1e-15 * targets.cwiseAbs().maxCoeff();
+  StopRule stop{std::max(parts.options.tolerance * diagonal, floor), parts.options.max_iterations, progress};
+  parallel_for_each(static_cast<std::ptrdiff_t>(parts.curves.curves.size()),
+                    [&](std::ptrdiff_t c) { solve_curve(parts.curves.curves[c], result.control); });
+  try {
+    result.report = parts.solve_block(targets, result.control, stop);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::SingularSystem || parts.valence_two.empty()) throw;
+  }
+  if (!result.report.converged) parts.rescue_valence_two(targets, stop, result);
+  if (!parts.singular.empty()) parts.solve_singular(targets, stop, result);
+  parts.measure(targets, result);
+  return result;
+}
+
+RefinedSurface ordinary_surface(const Topology& topology, const Scheme& scheme, const Interpolant& interpolant) {
+  if (interpolant.vertex_alpha.empty() && scheme.alpha == 0.0) return {topology, interpolant.control};
+  Refinement step(topology, scheme, interpolant.vertex_alpha);
+  Values refined = step.apply(interpolant.control);
+  return {std::move(step).child(), std::move(refined)};
+}
+
+Mesh interpolate(const Mesh& mesh, const InterpolateOptions& options) {
+  const Topology topology(mesh);
+  const Scheme scheme = choose_scheme(mesh);
+  const Interpolant interpolant = Interpolator(topology, scheme, options).solve(mesh.points);
+  const RefinedSurface surface = ordinary_surface(topology, scheme, interpolant);
+  if (surface.topology.vertex_count() == mesh.vertex_count()) {
+    Mesh control = mesh;
+    control.points = surface.values;
+    return control;
+  }
+  Mesh control = mesh_from_topology(surface.topology);
+  control.points = surface.values;
+  control.boundary = mesh.boundary;
+  control.crease_method = mesh.crease_method;
+  control.triangle_rule = mesh.triangle_rule;
+  return control;
+}
+
+}  // namespace batten
