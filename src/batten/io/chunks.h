@@ -1,0 +1,57 @@
+/// \file Text in pieces that end where lines end, parsed in parallel with results and errors as if it were one piece.
+#pragma once
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "batten/io/scanner.h"
+#include "batten/parallel/parallel.h"
+
+namespace batten::io {
+
+/// Cuts at line ends that no backslash continues, into pieces of about chunk_bytes.
+std::vector<std::string_view> cut_lines(std::string_view text, std::size_t chunk_bytes);
+
+/// Calls body(i) for i in [0, count) in parallel, and throws the Fault of the lowest i that has one.
+template <typename Body>
+void for_each_chunk(std::size_t count, const Body& body) {
+  std::vector<std::optional<Fault>> faults(count);
+  parallel_for_each(static_cast<std::ptrdiff_t>(count), [&](std::ptrdiff_t i) {
+    try {
+      body(static_cast<std::size_t>(i));
+    } catch (Fault& fault) {
+      faults[i] = std::move(fault);
+    }
+  });
+  for (const std::optional<Fault>& fault : faults) {
+    if (fault) throw Fault(*fault);
+  }
+}
+
+/// Lines that hold something else than a comment, numbered through the chunks.
+struct Rows {
+  struct Chunk {
+    std::string_view text;
+    std::ptrdiff_t first_row;
+  };
+  std::vector<Chunk> chunks;
+  std::ptrdiff_t count = 0;
+};
+
+/// Cuts the text and counts its rows.
+Rows find_rows(std::string_view text, std::size_t chunk_bytes, char separator = ' ');
+
+/// Calls body(scanner, row, chunk) at the start of each row; the body must take every token of the line.
+template <typename Body>
+void for_each_row(const Rows& rows, const Body& body, char separator = ' ') {
+  for_each_chunk(rows.chunks.size(), [&](std::size_t chunk) {
+    Scanner scanner(rows.chunks[chunk].text, separator);
+    std::ptrdiff_t row = rows.chunks[chunk].first_row;
+    while (!scanner.at_end()) {
+      if (scanner.next_token()) body(scanner, row++, chunk);
+      scanner.finish_line();
+    }
+  });
+}
+
+}  // namespace batten::io

@@ -1,0 +1,24 @@
+/// \file The readers and writers behind read_mesh and write_mesh. Readers throw Error; `source` outlives the call.
+#pragma once
+#include "batten/io/output.h"
+#include "batten/io/source.h"
+#include "batten/mesh/mesh.h"
+
+namespace batten::io {
+
+enum class Encoding { Text, Binary };
+
+Mesh read_obj(const Source& source);
+Mesh read_ply(const Source& source);
+Mesh read_off(const Source& source);
+Mesh read_stl(const Source& source);
+Mesh read_xyz(const Source& source);
+
+/// The writers trust the mesh: require_writable (write_check.h) comes first.
+void write_obj(OutputFile& file, const Mesh& mesh);
+void write_ply(OutputFile& file, const Mesh& mesh, Encoding encoding);
+void write_off(OutputFile& file, const Mesh& mesh);
+void write_stl(OutputFile& file, const Mesh& mesh, Encoding encoding);
+void write_xyz(OutputFile& file, const Mesh& mesh);
+
+}  // namespace batten::io

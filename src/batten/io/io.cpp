@@ -1,0 +1,69 @@
+#include "batten/io/io.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "batten/error.h"
+#include "batten/io/formats.h"
+#include "batten/io/write_check.h"
+
+namespace batten {
+
+namespace {
+
+struct Format {
+  const char* extension;
+  Mesh (*read)(const io::Source& source);
+  void (*write)(io::OutputFile& file, const Mesh& mesh, io::Encoding encoding);
+};
+
+constexpr Format kFormats[] = {
+    {"obj", io::read_obj, [](io::OutputFile& file, const Mesh& mesh, io::Encoding) { io::write_obj(file, mesh); }},
+    {"ply", io::read_ply, io::write_ply},
+    {"off", io::read_off, [](io::OutputFile& file, const Mesh& mesh, io::Encoding) { io::write_off(file, mesh); }},
+    {"stl", io::read_stl, io::write_stl},
+    {"xyz", io::read_xyz, [](io::OutputFile& file, const Mesh& mesh, io::Encoding) { io::write_xyz(file, mesh); }},
+};
+
+/// The format that was asked for, else the one of the extension; a leading dot and capitals do not matter.
+const Format& find_format(const std::string& path, const std::string& asked) {
+  std::string wanted = asked.empty() ? std::filesystem::path(path).extension().string() : asked;
+  if (!wanted.empty() && wanted[0] == '.') wanted.erase(0, 1);
+  std::transform(wanted.begin(), wanted.end(), wanted.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  std::string known;
+  for (const Format& format : kFormats) {
+    if (wanted == format.extension) return format;
+    known += std::string(known.empty() ? "" : ", ") + format.extension;
+  }
+  const std::string what = wanted.empty() ? "no file type" : "the file type '" + wanted + "' is unknown";
+  throw Error(ErrorCode::UnknownFormat,
+              (path == "-" ? "standard input or output" : path) + ": " + what + "; give one of " + known);
+}
+
+/// Some editors put this mark of UTF-8 first; it says nothing.
+std::string_view without_byte_order_mark(std::string_view bytes) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  return bytes.substr(0, kMark.size()) == kMark ? bytes.substr(kMark.size()) : bytes;
+}
+
+}  // namespace
+
+Mesh read_mesh(const std::string& path, const std::string& format) {
+  const Format& known = find_format(path, format);
+  const io::InputFile file(path);
+  return known.read({path == "-" ? "standard input" : path, without_byte_order_mark(file.bytes())});
+}
+
+void write_mesh(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
+  const Format& known = find_format(path, options.format);
+  const std::string name = path == "-" ? "standard output" : path;
+  io::require_writable(name, mesh);
+  write_atomically(path, [&](const std::string& target) {
+    io::OutputFile file(target, name);
+    known.write(file, mesh, options.binary ? io::Encoding::Binary : io::Encoding::Text);
+    file.close();
+  });
+}
+
+}  // namespace batten

@@ -1,0 +1,45 @@
+/// \file What the head of a PLY file promises about its body.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "batten/io/source.h"
+
+namespace batten::io {
+
+enum class PlyType { Int8, Uint8, Int16, Uint16, Int32, Uint32, Float32, Float64 };
+enum class PlyEncoding { Text, LittleEndian, BigEndian };
+
+struct PlyProperty {
+  std::string name;
+  PlyType type;                       ///< of a list: of its entries
+  std::optional<PlyType> count_type;  ///< lists only
+
+  bool is_list() const { return count_type.has_value(); }
+};
+
+struct PlyElement {
+  std::string name;
+  std::uint64_t count = 0;
+  std::vector<PlyProperty> properties;
+
+  /// Bytes of a row whose lists are empty.
+  std::size_t smallest_row() const;
+  bool has_list() const;
+};
+
+struct PlyHeader {
+  PlyEncoding encoding = PlyEncoding::Text;
+  std::vector<PlyElement> elements;
+  const char* body = nullptr;
+};
+
+std::size_t byte_size(PlyType type);
+bool is_integer(PlyType type);
+
+/// Throws Fault.
+PlyHeader parse_ply_header(const Source& source);
+
+}  // namespace batten::io

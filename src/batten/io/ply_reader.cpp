@@ -1,0 +1,103 @@
+#include "batten/io/chunks.h"
+#include "batten/io/formats.h"
+#include "batten/io/ply_binary.h"
+#include "batten/io/ply_targets.h"
+
+namespace batten::io {
+
+namespace {
+
+/// Takes the values of a row from the tokens of a line.
+struct TextValues {
+  Scanner& scanner;
+  bool finite;  ///< coordinates stand in this row
+
+  double scalar(const PlyProperty& property) {
+    const bool coordinate = finite && (property.name == "x" || property.name == "y" || property.name == "z");
+    return coordinate ? scanner.coordinate(property.name.c_str()) : scanner.number(property.name.c_str());
+  }
+  std::int64_t integer(PlyType type, const char* what) {
+    if (is_integer(type)) return scanner.integer(what);
+    fail(ErrorCode::BadFile, "vertices of a face have an integer type");
+  }
+  void skip(PlyType /*type*/, std::int64_t count) {
+    for (std::int64_t i = 0; i < count; ++i) scanner.number("list entry");
+  }
+  [[noreturn]] void fail(ErrorCode code, const std::string& message) const { scanner.fail(code, message); }
+};
+
+/// A value takes a digit and a blank at least, so that a promise that the text cannot hold shows before memory is
+/// taken.
+void require_text_size(const Source& source, const PlyHeader& header, const Rows& rows) {
+  auto rows_left = static_cast<std::uint64_t>(rows.count);
+  auto bytes_left = static_cast<std::uint64_t>(source.bytes.data() + source.bytes.size() - header.body) + 1;
+  for (const PlyElement& element : header.elements) {
+    const std::uint64_t row_bytes = 2 * element.properties.size();
+    if (row_bytes == 0) continue;
+    if (element.count > rows_left || element.count > bytes_left / row_bytes) {
+      throw Error(ErrorCode::BadFile, source.name + ": the header promises " + std::to_string(element.count) +
+                                          " rows of '" + element.name +
+                                          "', but the file has no room for them; it is cut short");
+    }
+    rows_left -= element.count;
+    bytes_left -= element.count * row_bytes;
+  }
+}
+
+/// The elements one after the other, a line per row.
+struct ElementRows {
+  const PlyTargets* targets;
+  std::ptrdiff_t first_row;
+  std::ptrdiff_t end_row;
+};
+
+void read_text(const Source& source, const PlyHeader& header, std::vector<PlyTargets>& targets, Mesh& mesh) {
+  const auto offset = static_cast<std::size_t>(header.body - source.bytes.data());
+  const Rows rows = find_rows(source.bytes.substr(offset), source.chunk_bytes);
+  require_text_size(source, header, rows);
+  std::vector<ElementRows> elements;
+  for (PlyTargets& target : targets) {
+    if (target.role == PlyRole::Vertices) allocate_ply_vertices(target, mesh);
+    if (target.element->properties.empty()) continue;
+    const std::ptrdiff_t begin = elements.empty() ? 0 : elements.back().end_row;
+    elements.push_back({&target, begin, begin + static_cast<std::ptrdiff_t>(target.element->count)});
+  }
+  std::vector<FaceList> faces(rows.chunks.size());
+  for_each_row(rows, [&](Scanner& scanner, std::ptrdiff_t row, std::size_t chunk) {
+    std::size_t at = 0;
+    while (at < elements.size() && row >= elements[at].end_row) ++at;
+    if (at == elements.size()) {
+      scanner.skip_tokens();
+      return;
+    }
+    TextValues values{scanner, elements[at].targets->role == PlyRole::Vertices};
+    read_ply_row(values, *elements[at].targets, row - elements[at].first_row, faces[chunk]);
+  });
+  join_faces(source.name, faces, mesh);
+}
+
+}  // namespace
+
+Mesh read_ply(const Source& source) {
+  PlyHeader header;
+  try {
+    header = parse_ply_header(source);
+  } catch (const Fault& fault) {
+    throw_at_line(source, fault);
+  }
+  std::vector<PlyTargets> targets = find_ply_targets(source.name, header);
+  Mesh mesh;
+  try {
+    if (header.encoding == PlyEncoding::Text) {
+      read_text(source, header, targets, mesh);
+    } else {
+      read_ply_binary(source, header, targets, mesh);
+    }
+  } catch (const Fault& fault) {
+    if (header.encoding == PlyEncoding::Text) throw_at_line(source, fault);
+    throw_at_byte(source, fault);
+  }
+  return mesh;
+}
+
+}  // namespace batten::io

@@ -1,0 +1,145 @@
+/// \file One pass over a text, token by token: the only place that knows blanks, comments, continued lines and numbers.
+#pragma once
+#include <fast_float/fast_float.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+#include "batten/io/source.h"
+
+namespace batten::io {
+
+/// A token as a message can show it: short, in quotes, and without what a terminal would obey.
+std::string quoted(std::string_view token);
+
+/// Tokens are parted by blanks (space, tab, CR, form feed) and, where asked, by one more character. A line ends at LF;
+/// a backslash before LF continues it; a token that starts with '#' begins a comment, which a backslash never continues
+/// (a comment may well end in a Windows path). Every failure throws Fault at the token.
+class Scanner {
+ public:
+  explicit Scanner(std::string_view text, char separator = ' ')
+      : here_(text.data()), end_(text.data() + text.size()), separator_(separator) {}
+
+  const char* position() const { return here_; }
+  bool at_end() const { return here_ == end_; }
+
+  /// Moves to the next token of this line; false where the line ends first.
+  bool next_token() {
+    for (; here_ != end_; ++here_) {
+      if (is_blank(*here_)) continue;
+      if (*here_ == '\\' && continues_line(here_)) {
+        here_ = static_cast<const char*>(std::memchr(here_, '\n', static_cast<std::size_t>(end_ - here_)));
+        continue;
+      }
+      return *here_ != '\n' && *here_ != '#';
+    }
+    return false;
+  }
+
+  /// The token at hand, or an empty one at the end of the line.
+  std::string_view word() {
+    const char* begin = here_;
+    if (next_token()) {
+      begin = here_;
+      while (!ends_token(here_)) ++here_;
+    }
+    return {begin, static_cast<std::size_t>(here_ - begin)};
+  }
+
+  /// A double, bit for bit what the decimal text means (fast_float), a leading '+', "nan" and "inf" included.
+  double number(const char* what) {
+    require_token(what);
+    const char* begin = here_;
+    if (*begin == '+' && begin + 1 != end_ && begin[1] != '-') ++begin;
+    double value = 0.0;
+    const fast_float::from_chars_result result = fast_float::from_chars(begin, end_, value);
+    if (result.ec == std::errc::invalid_argument || !ends_token(result.ptr)) fail_token("a number", what);
+    here_ = result.ptr;
+    return value;
+  }
+
+  /// A double that is neither NaN nor infinite.
+  double coordinate(const char* what) {
+    if (!next_token()) fail_missing(what);
+    const char* token = here_;
+    const double value = number(what);
+    if (!std::isfinite(value)) fail_not_finite(token, what);
+    return value;
+  }
+
+  /// Decimal digits with an optional sign. `stop` may follow at once, besides what ends a token.
+  std::int64_t integer(const char* what, char stop = '\n') {
+    require_token(what);
+    const char* at = here_;
+    const bool negative = *at == '-';
+    if (negative || *at == '+') ++at;
+    const char* digits = at;
+    std::int64_t value = 0;
+    for (; at != end_ && static_cast<unsigned char>(*at - '0') < 10 && at - digits < 18; ++at) {
+      value = 10 * value + (*at - '0');
+    }
+    if (at == digits || !(ends_token(at) || *at == stop)) fail_token("an integer", what);
+    here_ = at;
+    return negative ? -value : value;
+  }
+
+  /// Moves past `expected` if it stands here.
+  bool skip(char expected) {
+    if (here_ == end_ || *here_ != expected) return false;
+    ++here_;
+    return true;
+  }
+
+  /// What is left of the line, continued lines joined, without the blanks around it.
+  std::string rest_of_line();
+
+  /// Moves to the end of the line as a comment has it: a backslash continues nothing.
+  void skip_comment() {
+    while (here_ != end_ && *here_ != '\n') ++here_;
+  }
+
+  /// Moves to the next line, whatever is left of this one.
+  void skip_line();
+
+  /// Moves to the end of the line, over all its tokens.
+  void skip_tokens() {
+    while (!word().empty()) {
+    }
+  }
+
+  /// Moves to the next line; fails when a token is left.
+  void finish_line() {
+    if (next_token()) fail_token("the end of the line", "after the last value");
+    skip_line();
+  }
+
+  [[noreturn]] void fail(ErrorCode code, const std::string& message) const { throw Fault{here_, code, message}; }
+  [[noreturn]] void fail_token(const char* wanted, const char* what) const;
+  [[noreturn]] void fail_missing(const char* what) const;
+
+ private:
+  bool is_blank(char c) const {
+    return c == ' ' || c == '\t' || c == '\r' || c == separator_ || c == '\f' || c == '\v';
+  }
+  bool ends_token(const char* at) const {
+    return at == end_ || is_blank(*at) || *at == '\n' || (*at == '\\' && continues_line(at));
+  }
+  bool continues_line(const char* backslash) const {
+    const char* next = backslash + 1;
+    if (next != end_ && *next == '\r') ++next;
+    return next != end_ && *next == '\n';
+  }
+  void require_token(const char* what) {
+    if (!next_token()) fail_missing(what);
+  }
+  [[noreturn]] void fail_not_finite(const char* token, const char* what) const;
+
+  const char* here_;
+  const char* end_;
+  char separator_;
+};
+
+}  // namespace batten::io

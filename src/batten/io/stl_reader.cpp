@@ -1,0 +1,209 @@
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "batten/io/bytes.h"
+#include "batten/io/faces.h"
+#include "batten/io/formats.h"
+#include "batten/io/scanner.h"
+
+namespace batten::io {
+
+namespace {
+
+constexpr std::size_t kHeaderBytes = 84;
+constexpr std::size_t kTriangleBytes = 50;
+
+/// Equal coordinates become one vertex, numbered by first appearance. A hash table with open addressing.
+class VertexWelder {
+ public:
+  explicit VertexWelder(const std::string& name) : name_(name), slots_(kFirstSlots, kFree) {}
+
+  Index add(const double* point) {
+    if (2 * count_ >= slots_.size()) grow();
+    const std::size_t slot = find(point);
+    if (slots_[slot] == kFree) {
+      require_index_count(name_, count_ + 1, "vertices");
+      slots_[slot] = static_cast<Index>(count_++);
+      coordinates_.insert(coordinates_.end(), point, point + 3);
+    }
+    return slots_[slot];
+  }
+
+  Points points() const { return Eigen::Map<const Points>(coordinates_.data(), static_cast<Eigen::Index>(count_), 3); }
+
+ private:
+  static constexpr Index kFree = -1;
+  static constexpr std::size_t kFirstSlots = 1024;
+
+  static std::uint64_t hash(const double* point) {
+    std::uint64_t mixed = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double value = point[k] + 0.0;  // -0 equals 0
+      std::uint64_t bits;
+      std::memcpy(&bits, &value, sizeof(bits));
+      mixed = (mixed ^ bits) * 0x9E3779B97F4A7C15U;
+      mixed ^= mixed >> 32;
+    }
+    return mixed;
+  }
+
+  /// The slot of the vertex, or the free one where it belongs.
+  std::size_t find(const double* point) const {
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t slot = hash(point) & mask;
+    while (slots_[slot] != kFree &&
+           !std::equal(point, point + 3, coordinates_.data() + 3 * std::size_t(slots_[slot]))) {
+      slot = (slot + 1) & mask;
+    }
+    return slot;
+  }
+
+  void grow() {
+    slots_.assign(2 * slots_.size(), kFree);
+    for (std::size_t vertex = 0; vertex < count_; ++vertex) {
+      slots_[find(coordinates_.data() + 3 * vertex)] = static_cast<Index>(vertex);
+    }
+  }
+
+  const std::string& name_;
+  std::vector<Index> slots_;
+  Buffer<double> coordinates_;
+  std::size_t count_ = 0;
+};
+
+Mesh finish(const Source& source, const VertexWelder& welder, FaceList faces) {
+  std::vector<FaceList> parts;
+  parts.push_back(std::move(faces));
+  Mesh mesh;
+  join_faces(source.name, parts, mesh);
+  mesh.points = welder.points();
+  return mesh;
+}
+
+std::uint64_t promised_bytes(std::string_view bytes) {
+  return kHeaderBytes + kTriangleBytes * std::uint64_t{load<std::uint32_t, ByteOrder::Little>(bytes.data() + 80)};
+}
+
+/// A normal, three points, and two bytes without a meaning.
+Mesh read_binary(const Source& source) {
+  const std::uint64_t promised = promised_bytes(source.bytes);
+  if (promised != source.bytes.size()) {
+    throw Error(ErrorCode::BadFile, source.name + ": the header promises " + std::to_string(promised) +
+                                        " bytes, but the file has " + std::to_string(source.bytes.size()) +
+                                        "; it is cut short or not an STL file");
+  }
+  VertexWelder welder(source.name);
+  FaceList faces;
+  const std::size_t count = (source.bytes.size() - kHeaderBytes) / kTriangleBytes;
+  require_index_count(source.name, 3 * count, "face corners");
+  faces.sizes.assign(count, 3);
+  faces.vertices.resize(3 * count);
+  for (std::size_t corner = 0; corner < 3 * count; ++corner) {
+    const char* at = source.bytes.data() + kHeaderBytes + kTriangleBytes * (corner / 3) + 12 * (corner % 3 + 1);
+    double point[3];
+    for (int k = 0; k < 3; ++k) point[k] = double{load<float, ByteOrder::Little>(at + 4 * k)};
+    if (!std::all_of(point, point + 3, [](double value) { return std::isfinite(value); })) {
+      throw Fault{at, ErrorCode::NotFinite,
+                  "triangle " + std::to_string(corner / 3) + " has a coordinate that is not finite; remove it"};
+    }
+    faces.vertices[corner] = welder.add(point);
+  }
+  return finish(source, welder, std::move(faces));
+}
+
+class TextParser {
+ public:
+  explicit TextParser(const Source& source) : source_(source), scanner_(source.bytes), welder_(source.name) {}
+
+  Mesh parse() {
+    bool closed = false;
+    while (find_token()) {
+      const Scanner before = scanner_;
+      const std::string keyword = lowercase(scanner_.word());
+      closed = keyword == "endsolid";
+      if (!statement(keyword)) before.fail_token("a word of an STL file", "statement");
+    }
+    if (!closed) scanner_.fail(ErrorCode::BadFile, "the file ends without endsolid; it is cut short");
+    return finish(source_, welder_, std::move(faces_));
+  }
+
+ private:
+  static std::string lowercase(std::string_view word) {
+    std::string text(word.substr(0, 16));
+    for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return text;
+  }
+
+  bool find_token() {
+    while (!scanner_.next_token()) {
+      if (scanner_.at_end()) return false;
+      scanner_.skip_line();
+    }
+    return true;
+  }
+
+  bool statement(const std::string& keyword) {
+    if (keyword == "vertex") {
+      vertex();
+    } else if (keyword == "outer") {
+      corners_ = 0;
+      scanner_.word();
+    } else if (keyword == "endloop") {
+      close_loop();
+    } else if (keyword == "solid" || keyword == "endsolid") {
+      scanner_.skip_line();
+    } else if (keyword == "facet") {
+      // The normal follows from the corners; many files have zeros or NaN here.
+      for (int i = 0; i < 4; ++i) scanner_.word();
+    } else {
+      return keyword == "endfacet";
+    }
+    return true;
+  }
+
+  void vertex() {
+    double point[3];
+    const char* const names[] = {"x coordinate", "y coordinate", "z coordinate"};
+    for (int k = 0; k < 3; ++k) point[k] = scanner_.coordinate(names[k]);
+    faces_.vertices.push_back(welder_.add(point));
+    ++corners_;
+  }
+
+  void close_loop() {
+    if (corners_ < 3) {
+      scanner_.fail(ErrorCode::BadFile, "a facet needs 3 vertices, this one has " + std::to_string(corners_));
+    }
+    faces_.sizes.push_back(corners_);
+    corners_ = 0;
+  }
+
+  const Source& source_;
+  Scanner scanner_;
+  VertexWelder welder_;
+  FaceList faces_;
+  Index corners_ = 0;
+};
+
+/// Binary files may begin with "solid" too, so that the size decides first.
+bool is_binary(std::string_view bytes) {
+  if (bytes.size() >= kHeaderBytes && promised_bytes(bytes) == bytes.size()) return true;
+  Scanner scanner(bytes);
+  while (!scanner.next_token() && !scanner.at_end()) scanner.skip_line();
+  const std::string_view word = scanner.word();
+  return word != "solid" && word != "SOLID" && bytes.size() >= kHeaderBytes;
+}
+
+}  // namespace
+
+Mesh read_stl(const Source& source) {
+  const bool binary = is_binary(source.bytes);
+  try {
+    return binary ? read_binary(source) : TextParser(source).parse();
+  } catch (const Fault& fault) {
+    if (binary) throw_at_byte(source, fault);
+    throw_at_line(source, fault);
+  }
+}
+
+}  // namespace batten::io
