@@ -11,6 +11,7 @@
 
 #include "batten/mesh/primitives.h"
 #include "batten/mesh/topology.h"
+#include "batten/scheme/scheme.h"
 
 namespace batten::test {
 
@@ -191,6 +192,17 @@ inline std::vector<NamedMesh> sample_meshes() {
   samples.push_back({"mixed faces, two components, an isolated vertex", mixed});
   for (std::size_t i = 0; i < samples.size(); ++i) samples[i].mesh = jittered(samples[i].mesh, 0.05, 7);
   return samples;
+}
+
+/// Every sample under each scheme that takes it.
+template <typename Visit>
+void for_each_sample(const Visit& visit) {
+  for (const NamedMesh& sample : sample_meshes()) {
+    Scheme scheme;
+    visit(sample.mesh, scheme, sample.name + " under Catmull-Clark");
+    scheme.kind = SchemeKind::Loop;
+    if (all_triangles(sample.mesh)) visit(sample.mesh, scheme, sample.name + " under Loop");
+  }
 }
 
 }  // namespace batten::test

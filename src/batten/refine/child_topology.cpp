@@ -82,7 +82,7 @@ void fill_quads(const Topology& parent, TopologyTables& child) {
 void fill_triangles(const Topology& parent, TopologyTables& child) {
   const Index v_count = parent.vertex_count();
   const Index e_count = parent.edge_count();
-  // Half-edge h = 3f + k of the parent stands in two child triangles: 4f + k (its first side) and 4f + k + 1 (its third).
+  // Half-edge h = 3f + k of the parent stands in two child triangles: the first side of 4f + k, the third of 4f + k + 1.
   const auto corner_triangle = [](Index h) { return 4 * (h / 3) + h % 3; };
   parallel_for(parent.face_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (auto f = static_cast<Index>(begin); f < end; ++f) {
@@ -112,7 +112,7 @@ void fill_triangles(const Topology& parent, TopologyTables& child) {
   });
 }
 
-/// A child vertex's fan starts where the parent's boundary does; at new vertices it starts at the boundary if there is one.
+/// A child vertex's fan starts where its parent's does; a new vertex's starts at the boundary if there is one.
 void start_fans(const Topology& parent, const Scheme& scheme, TopologyTables& child) {
   const Index v_count = parent.vertex_count();
   const Index e_count = parent.edge_count();
@@ -155,11 +155,12 @@ void pass_tags_on(const Topology& parent, const Scheme& scheme, TopologyTables& 
       for (auto v = static_cast<Index>(begin); v < end; ++v) {
         if (parent.is_isolated(v)) continue;
         gather_ring(parent, v, ring);
+        const SemiSharpEdges around = semi_sharp_edges(ring.sharpness);
         for (std::size_t i = 0; i < ring.edges.size(); ++i) {
           const Index e = ring.edges[i];
           const bool at_origin = parent.origin(parent.edge_half_edge(e)) == v;
           child.edge_sharpness[2 * e + (at_origin ? 0 : 1)] =
-              subdivided_sharpness(ring.sharpness[i], ring.sharpness, scheme.crease_method);
+              subdivided_sharpness(ring.sharpness[i], around, scheme.crease_method);
         }
       }
     });

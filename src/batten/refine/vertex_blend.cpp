@@ -28,7 +28,8 @@ void add_rule(VertexBlend& blend, VertexRule rule, double weight, std::span<cons
 
 Buffer<float> child_sharpness_of(std::span<const float> sharpness, CreaseMethod method) {
   Buffer<float> child(sharpness.size());
-  for (std::size_t i = 0; i < child.size(); ++i) child[i] = subdivided_sharpness(sharpness[i], sharpness, method);
+  const SemiSharpEdges around = semi_sharp_edges(sharpness);
+  for (std::size_t i = 0; i < child.size(); ++i) child[i] = subdivided_sharpness(sharpness[i], around, method);
   return child;
 }
 

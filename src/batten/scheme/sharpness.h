@@ -1,4 +1,5 @@
-/// \file How sharpness decides the rule at a vertex or an edge, and how it decays (OpenSubdiv 3.5, sdc/crease; key OSD).
+/// \file How sharpness decides the rule at a vertex or an edge, and how it decays (OpenSubdiv 3.5, sdc/crease; key
+/// OSD).
 ///
 /// Sharpness is computed in float, as there, so that semi-sharp weights are the same to the last bit.
 #pragma once
@@ -20,23 +21,33 @@ inline float subdivided_sharpness(float sharpness) {
   return sharpness > 1.0F ? sharpness - 1.0F : 0.0F;
 }
 
-/// Sharpness of the child, at one end, of the edge whose sharpness is `edge`; `around` holds the sharpness of all edges at
-/// that end. Chaikin: 3/4 of the edge and 1/4 of the average of the other semi-sharp edges there, less one.
-inline float subdivided_sharpness(float edge, std::span<const float> around, CreaseMethod method) {
-  if (method == CreaseMethod::Uniform || around.size() < 2) return subdivided_sharpness(edge);
-  if (!is_semi_sharp(edge)) return is_sharp(edge) ? kInfiniteSharpness : 0.0F;
+/// The semi-sharp ones among the edges at a vertex.
+struct SemiSharpEdges {
   float sum = 0.0F;
   int count = 0;
+};
+inline SemiSharpEdges semi_sharp_edges(std::span<const float> around) {
+  SemiSharpEdges edges;
   for (const float sharpness : around) {
     if (!is_semi_sharp(sharpness)) continue;
-    sum += sharpness;
-    ++count;
+    edges.sum += sharpness;
+    ++edges.count;
   }
-  if (count == 1) return subdivided_sharpness(edge);
-  const float others = (sum - edge) / static_cast<float>(count - 1);
+  return edges;
+}
+
+/// Sharpness of the child, at one end, of the edge whose sharpness is `edge`; `around` are all edges at that end.
+/// Chaikin: 3/4 of the edge and 1/4 of the average of the other semi-sharp edges there, less one.
+inline float subdivided_sharpness(float edge, SemiSharpEdges around, CreaseMethod method) {
+  if (method == CreaseMethod::Uniform || !is_semi_sharp(edge) || around.count < 2) return subdivided_sharpness(edge);
+  const float others = (around.sum - edge) / static_cast<float>(around.count - 1);
   // A quarter of a float is exact, so a compiler that fuses multiplication and addition rounds no other way.
   const float child = edge - 0.25F * edge + 0.25F * others - 1.0F;
   return is_sharp(child) ? child : 0.0F;
+}
+inline float subdivided_sharpness(float edge, std::span<const float> around, CreaseMethod method) {
+  if (method == CreaseMethod::Uniform) return subdivided_sharpness(edge);
+  return subdivided_sharpness(edge, semi_sharp_edges(around), method);
 }
 
 inline VertexRule vertex_rule(float vertex, std::span<const float> edges) {
