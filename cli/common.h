@@ -1,0 +1,84 @@
+/// \file What the verbs share: reading with the options applied, tables, timing, the progress bar, reports.
+#pragma once
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/arguments.h"
+
+namespace batten::cli {
+
+/// Seconds a stage took, in order; JSON and the table's last line.
+class Stages {
+ public:
+  /// Ends the running stage and gives it this name.
+  void finish(const std::string& name);
+  nlohmann::ordered_json json() const;
+  std::string text() const;
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::vector<std::pair<std::string, double>> stages_;
+};
+
+/// A short table for a person: left column names, right column facts.
+class Table {
+ public:
+  void add(const std::string& name, const std::string& fact) { rows_.emplace_back(name, fact); }
+  /// To stdout, or to stderr where the mesh itself goes to stdout.
+  void print(const CommonArguments& arguments) const;
+
+ private:
+  std::vector<std::pair<std::string, std::string>> rows_;
+};
+
+/// A bar on stderr when that is a terminal, after half a second.
+class ProgressBar {
+ public:
+  ProgressBar(std::string label, bool quiet);
+  ~ProgressBar();
+  Progress callback();
+
+ private:
+  void draw(double done);
+  std::string label_;
+  bool enabled_;
+  bool drawn_ = false;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point last_ = start_;
+};
+
+Mesh read_input(const CommonArguments& arguments);
+void write_output(const CommonArguments& arguments, const Mesh& mesh);
+/// The mesh's own scheme, overruled by the options.
+Scheme scheme_for(const CommonArguments& arguments, const Mesh& mesh);
+void write_json(const std::string& path, const nlohmann::ordered_json& json);
+
+/// "12,345"
+std::string grouped(std::int64_t number);
+std::string count_of(std::int64_t number, const std::string& singular, const std::string& plural);
+std::string mesh_text(const Topology& topology);
+std::string scheme_text(const Scheme& scheme);
+nlohmann::ordered_json scheme_json(const Scheme& scheme);
+Index isolated_count(const Topology& topology);
+
+/// The control values refined `levels` times and moved to the limit, as a mesh; hole faces left out.
+Mesh limit_mesh(const Topology& topology, const Scheme& scheme, ConstValuesRef control, int levels);
+
+/// Levels that make some 400,000 faces, but at most 5.
+int picture_levels(const Topology& topology);
+
+struct PictureRequest {
+  std::string path;
+  int width = 1600;
+  int height = 1200;
+  int samples = 2;
+  std::optional<std::array<double, 3>> view;
+  bool quiet = false;
+};
+/// Draws and writes; throws Error(NotAvailable) in a build without pictures.
+void draw(const Mesh& surface, const Points& markers, const Mesh& lines, const PictureRequest& request);
+
+}  // namespace batten::cli

@@ -1,0 +1,26 @@
+#include "batten/parallel/parallel.h"
+#include "cli/common.h"
+
+namespace batten::cli {
+
+int run_convert(const CommonArguments& arguments) {
+  const ThreadLimit limit(arguments.threads);
+  Stages stages;
+  const Mesh mesh = read_input(arguments);
+  stages.finish("read");
+  write_output(arguments, mesh);
+  stages.finish("write");
+  Table table;
+  table.add("mesh", count_of(mesh.vertex_count(), "vertex", "vertices") + ", " + count_of(mesh.face_count(), "face", "faces"));
+  table.add("time", stages.text());
+  table.print(arguments);
+  write_json(arguments.report, {{"verb", "convert"},
+                                {"input", arguments.input},
+                                {"output", arguments.output},
+                                {"vertices", mesh.vertex_count()},
+                                {"faces", mesh.face_count()},
+                                {"seconds", stages.json()}});
+  return 0;
+}
+
+}  // namespace batten::cli

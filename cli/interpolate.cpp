@@ -1,0 +1,128 @@
+#include <fmt/format.h>
+
+#include "batten/error.h"
+#include "batten/parallel/parallel.h"
+#include "cli/common.h"
+
+namespace batten::cli {
+namespace {
+
+/// The control mesh that goes to the file: the input with new points, or the refined mesh where alpha acted.
+Mesh control_mesh(Mesh mesh, const Topology& topology, const Scheme& scheme, const Interpolant& interpolant) {
+  RefinedSurface surface = ordinary_surface(topology, scheme, interpolant);
+  const bool same = surface.topology.vertex_count() == topology.vertex_count();
+  Mesh control = same ? std::move(mesh) : mesh_from_topology(surface.topology);
+  control.points = surface.values;
+  // What the surface depends on is said in the file, so that another program makes the same one of it.
+  control.boundary = scheme.boundary;
+  if (topology.has_creases()) control.crease_method = scheme.crease_method;
+  if (scheme.triangle_rule == TriangleRule::Smooth) control.triangle_rule = scheme.triangle_rule;
+  return control;
+}
+
+/// Colours and other numbers at the vertices are interpolated too; normals of the input are not those of control points.
+void interpolate_attributes(Mesh& mesh, const Interpolator& interpolator) {
+  std::erase_if(mesh.attributes, [](const Attribute& attribute) { return attribute.name == "normal"; });
+  for (Attribute& attribute : mesh.attributes) {
+    if (!attribute.per_corner()) attribute.values = interpolator.solve(attribute.values).control;
+  }
+}
+
+void add_error_rows(Table& table, const Interpolant& result, double diagonal) {
+  const Index worst = result.worst.empty() ? -1 : result.worst.front().vertex;
+  table.add("max error", fmt::format("{:.3g} at vertex {} ({:.3g} of the diagonal)", result.max_error, worst,
+                                     diagonal > 0.0 ? result.max_error / diagonal : 0.0));
+  table.add("rms error", fmt::format("{:.3g}", result.rms_error));
+  table.add("moved", fmt::format("at most {:.4g} ({:.3g} of the diagonal)", result.max_movement,
+                                 diagonal > 0.0 ? result.max_movement / diagonal : 0.0));
+}
+
+std::string singular_text(const Interpolant& result, OnSingular choice) {
+  const std::string name = count_of(result.singular_components, "component has", "components have");
+  if (!result.vertex_alpha.empty()) {
+    return name + " no surface through arbitrary points (all valences 3, two-colourable): alpha = 1/2 there, and the result is "
+                  "written refined once";
+  }
+  if (choice == OnSingular::LeastSquares) return name + " a singular system; solved in the least-squares sense";
+  return name + " a singular system, but these points have a surface";
+}
+
+nlohmann::ordered_json report_json(const InterpolateArguments& arguments, const Topology& topology, const Scheme& scheme,
+                                   const Interpolant& result, double diagonal, const Stages& stages) {
+  nlohmann::ordered_json worst = nlohmann::ordered_json::array();
+  for (const VertexError& entry : result.worst) worst.push_back({{"vertex", entry.vertex}, {"error", entry.error}});
+  return {{"verb", "interpolate"},
+          {"input", arguments.common.input},
+          {"output", arguments.common.output},
+          {"vertices", topology.vertex_count()},
+          {"faces", topology.face_count()},
+          {"edges", topology.edge_count()},
+          {"isolated_vertices", isolated_count(topology)},
+          {"diagonal", diagonal},
+          {"scheme", scheme_json(scheme)},
+          {"method", result.report.method_name},
+          {"tolerance", arguments.options.tolerance},
+          {"converged", result.report.converged},
+          {"iterations", result.report.iterations},
+          {"residual_history", result.report.residual_history},
+          {"max_error", result.max_error},
+          {"rms_error", result.rms_error},
+          {"worst_vertices", worst},
+          {"max_movement", result.max_movement},
+          {"singular_components", result.singular_components},
+          {"alpha_used", !result.vertex_alpha.empty()},
+          {"threads", thread_count()},
+          {"seconds", stages.json()}};
+}
+
+}  // namespace
+
+int run_interpolate(const InterpolateArguments& arguments) {
+  const CommonArguments& common = arguments.common;
+  const ThreadLimit limit(common.threads);
+  Stages stages;
+  Mesh mesh = read_input(common);
+  stages.finish("read");
+  const Topology topology(mesh);
+  const Scheme scheme = scheme_for(common, mesh);
+  stages.finish("topology");
+  const double diagonal = bounding_diagonal(mesh.points);
+  const Points targets = common.picture.empty() ? Points(0, 3) : mesh.points;
+  Interpolant result;
+  {
+    const Interpolator interpolator(topology, scheme, arguments.options);
+    stages.finish("build");
+    ProgressBar bar("interpolating", common.quiet);
+    result = interpolator.solve(mesh.points, bar.callback());
+    interpolate_attributes(mesh, interpolator);
+  }
+  stages.finish("solve");
+  const Mesh control = control_mesh(std::move(mesh), topology, scheme, result);
+  write_output(common, control);
+  stages.finish("write");
+  if (!common.picture.empty()) {
+    const Topology drawn(control);
+    draw(limit_mesh(drawn, scheme.after_first_step(), control.points, picture_levels(drawn)), targets, control,
+         {common.picture, 1600, 1200, 2, {}, common.quiet});
+    stages.finish("picture");
+  }
+  Table table;
+  table.add("mesh", mesh_text(topology));
+  table.add("scheme", scheme_text(scheme));
+  table.add("method", fmt::format("{}, {}", result.report.method_name,
+                                  count_of(result.report.iterations, "iteration", "iterations")));
+  add_error_rows(table, result, diagonal);
+  if (result.singular_components > 0) table.add("singular", singular_text(result, arguments.options.on_singular));
+  table.add("time", stages.text());
+  table.print(common);
+  write_json(common.report, report_json(arguments, topology, scheme, result, diagonal, stages));
+  const bool least_squares = result.singular_components > 0 && arguments.options.on_singular == OnSingular::LeastSquares;
+  if (!result.report.converged && !least_squares) {
+    throw Error(ErrorCode::NotConverged,
+                fmt::format("the tolerance {:g} was not reached in {} iterations; what was reached is written (try --method auto)",
+                            arguments.options.tolerance, result.report.iterations));
+  }
+  return 0;
+}
+
+}  // namespace batten::cli

@@ -1,0 +1,172 @@
+/// The command line: parsed here, run in the verbs' own files.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <map>
+
+#include "batten/error.h"
+#include "batten/parallel/parallel.h"
+#include "cli/arguments.h"
+
+namespace batten::cli {
+namespace {
+
+template <typename Enum>
+using Names = std::map<std::string, Enum>;
+
+const Names<SchemeKind> kSchemes{{"catmull-clark", SchemeKind::CatmullClark}, {"loop", SchemeKind::Loop}};
+const Names<BoundaryRule> kBoundaries{{"none", BoundaryRule::None},
+                                      {"edge-only", BoundaryRule::EdgeOnly},
+                                      {"edge-and-corner", BoundaryRule::EdgeAndCorner}};
+const Names<CreaseMethod> kCreases{{"uniform", CreaseMethod::Uniform}, {"chaikin", CreaseMethod::Chaikin}};
+const Names<TriangleRule> kTriangles{{"catmark", TriangleRule::Catmark}, {"smooth", TriangleRule::Smooth}};
+const Names<SolveMethod> kMethods{{"auto", SolveMethod::Auto},
+                                  {"conjugate-gradient", SolveMethod::ConjugateGradient},
+                                  {"chebyshev", SolveMethod::Chebyshev},
+                                  {"jacobi", SolveMethod::Jacobi},
+                                  {"richardson", SolveMethod::Richardson},
+                                  {"direct", SolveMethod::Direct}};
+const Names<OnSingular> kOnSingular{
+    {"refuse", OnSingular::Refuse}, {"least-squares", OnSingular::LeastSquares}, {"alpha", OnSingular::Alpha}};
+const Names<LimitMasks> kMasks{{"exact", LimitMasks::Exact}, {"opensubdiv", LimitMasks::OpenSubdiv}};
+
+/// An option whose words stand for an enumerator; the help lists the words.
+template <typename Enum, typename Target>
+void add_choice(CLI::App& verb, const std::string& name, Target& target, const Names<Enum>& names, const std::string& help) {
+  std::string words;
+  for (const auto& entry : names) words += (words.empty() ? "" : "|") + entry.first;
+  verb.add_option_function<std::string>(name, [&target, names](const std::string& word) { target = names.at(word); }, help)
+      ->check(CLI::IsMember(names))
+      ->option_text(words);
+}
+
+void add_input(CLI::App& verb, CommonArguments& common) {
+  verb.add_option("INPUT", common.input, "mesh file: .obj .ply .off .stl .xyz, or - for standard input")->required();
+  verb.add_option("--input-format", common.input_format, "the input's type where its name does not tell")
+      ->option_text("obj|ply|off|stl|xyz");
+  verb.add_option("--threads", common.threads, "use at most so many threads (the result is the same)")
+      ->check(CLI::NonNegativeNumber)
+      ->option_text("N");
+  verb.add_flag("--quiet,-q", common.quiet, "print errors only");
+  verb.add_option("--report", common.report, "write everything that was measured, for a program")->option_text("FILE.json");
+}
+
+void add_output(CLI::App& verb, CommonArguments& common) {
+  verb.add_option("-o,--output", common.output, "file to write; the type follows the extension, - is standard output")
+      ->option_text("FILE");
+  verb.add_option("--output-format", common.output_format, "the output's type where its name does not tell")
+      ->option_text("obj|ply|off|stl|xyz");
+  verb.add_flag("--ascii", common.ascii, "PLY and STL as text");
+}
+
+void add_surface(CLI::App& verb, CommonArguments& common) {
+  add_choice(verb, "--scheme", common.scheme, kSchemes, "Loop for triangles and Catmull-Clark for anything else, if not given");
+  add_choice(verb, "--boundary", common.boundary, kBoundaries, "what the surface does at a boundary; overrules the file");
+  add_choice(verb, "--creases", common.crease_method, kCreases, "how semi-sharp creases fade; overrules the file");
+  add_choice(verb, "--triangles", common.triangle_rule, kTriangles, "Catmull-Clark's weights at triangles; overrules the file");
+  verb.add_option("--alpha", common.alpha, "Lai and Cheng's alpha in the first step (Catmull-Clark)")
+      ->check(CLI::Range(0.0, 1.0))
+      ->option_text("0..1");
+  verb.add_flag("--triangulate", common.triangulate, "split all faces into triangles first");
+}
+
+void add_picture(CLI::App& verb, CommonArguments& common) {
+  verb.add_option("--picture", common.picture, "draw the surface through its points")->option_text("FILE.png");
+}
+
+struct Verbs {
+  CommonArguments info;
+  InterpolateArguments interpolate;
+  SubdivideArguments subdivide;
+  CommonArguments convert;
+  RenderArguments render;
+};
+
+void add_interpolate(CLI::App& app, InterpolateArguments& arguments, int& status) {
+  CLI::App& verb = *app.add_subcommand("interpolate", "the control mesh whose limit surface passes through the vertices");
+  add_input(verb, arguments.common);
+  add_output(verb, arguments.common);
+  add_surface(verb, arguments.common);
+  add_picture(verb, arguments.common);
+  InterpolateOptions& options = arguments.options;
+  add_choice(verb, "--method", options.method, kMethods, "how to solve; jacobi is Thall's, richardson Lai and Cheng's");
+  verb.add_option("--tolerance", options.tolerance, "largest miss, of the bounding box's diagonal")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  verb.add_option("--omega", options.omega, "damping of jacobi")->check(CLI::PositiveNumber)->capture_default_str();
+  verb.add_option("--max-iterations", options.max_iterations, "give up after so many")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  add_choice(verb, "--on-singular", options.on_singular, kOnSingular, "where no surface passes through such points; alpha if not given");
+  add_choice(verb, "--limit-masks", options.masks, kMasks, "exact at darts and valence 2, or OpenSubdiv's masks there");
+  verb.callback([&] { status = run_interpolate(arguments); });
+}
+
+void add_subdivide(CLI::App& app, SubdivideArguments& arguments, int& status) {
+  CLI::App& verb = *app.add_subcommand("subdivide", "refine a control mesh uniformly");
+  add_input(verb, arguments.common);
+  add_output(verb, arguments.common);
+  add_surface(verb, arguments.common);
+  verb.add_option("--levels", arguments.levels, "how often")->check(CLI::Range(0, 12))->capture_default_str();
+  verb.add_flag("--limit", arguments.limit, "then move the vertices to the limit surface, with its normals");
+  verb.callback([&] { status = run_subdivide(arguments); });
+}
+
+void add_render(CLI::App& app, RenderArguments& arguments, int& status) {
+  CLI::App& verb = *app.add_subcommand("render", "draw a mesh's subdivision surface");
+  add_input(verb, arguments.common);
+  verb.add_option("-o,--output", arguments.common.output, "picture to write")->required()->option_text("FILE.png");
+  add_surface(verb, arguments.common);
+  verb.add_option("--levels", arguments.levels, "refinement; as many as make it smooth, if not given")->check(CLI::Range(0, 12));
+  verb.add_option("--width", arguments.width, "pixels")->check(CLI::Range(1, 16384))->capture_default_str();
+  verb.add_option("--height", arguments.height, "pixels")->check(CLI::Range(1, 16384))->capture_default_str();
+  verb.add_option("--samples", arguments.samples, "per pixel and axis")->check(CLI::Range(1, 16))->capture_default_str();
+  verb.add_option_function<std::array<double, 3>>(
+          "--view", [&](const std::array<double, 3>& view) { arguments.view = view; }, "direction from the object to the eye")
+      ->option_text("X Y Z");
+  verb.add_flag("--flat", arguments.flat, "draw the mesh as it is");
+  verb.add_flag("--control", arguments.control, "with the control mesh as lines");
+  verb.add_flag("--points", arguments.points, "with the vertices' limit positions");
+  verb.callback([&] { status = run_render(arguments); });
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("Batten: smooth subdivision surfaces through data.", "batten");
+  app.set_version_flag("--version", std::string("batten ") + BATTEN_VERSION);
+  app.require_subcommand(1);
+  app.get_formatter()->column_width(38);
+  Verbs verbs;
+  int status = 0;
+  add_interpolate(app, verbs.interpolate, status);
+  add_subdivide(app, verbs.subdivide, status);
+  add_render(app, verbs.render, status);
+  CLI::App& info = *app.add_subcommand("info", "what a mesh is made of, and whether a surface can be made of it");
+  add_input(info, verbs.info);
+  info.callback([&] { status = run_info(verbs.info); });
+  CLI::App& convert = *app.add_subcommand("convert", "read one format, write another");
+  add_input(convert, verbs.convert);
+  add_output(convert, verbs.convert);
+  convert.add_flag("--triangulate", verbs.convert.triangulate, "split all faces into triangles");
+  convert.callback([&] { status = run_convert(verbs.convert); });
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  return status;
+}
+
+}  // namespace
+}  // namespace batten::cli
+
+int main(int argc, char** argv) {
+  try {
+    return batten::cli::run(argc, argv);
+  } catch (const batten::Error& error) {
+    std::fprintf(stderr, "batten: %s\n", error.what());
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "batten: out of memory; take a smaller mesh or fewer levels\n");
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "batten: %s\n", error.what());
+  }
+  return 1;
+}

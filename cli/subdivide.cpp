@@ -1,0 +1,55 @@
+#include <fmt/format.h>
+
+#include "batten/limit/limit_matrix.h"
+#include "batten/parallel/parallel.h"
+#include "cli/common.h"
+
+namespace batten::cli {
+
+int run_subdivide(const SubdivideArguments& arguments) {
+  const CommonArguments& common = arguments.common;
+  const ThreadLimit limit(common.threads);
+  Stages stages;
+  const Mesh mesh = read_input(common);
+  stages.finish("read");
+  const Scheme scheme = scheme_for(common, mesh);
+  const Topology topology(mesh);
+  stages.finish("topology");
+  RefinedSurface surface = refine(topology, scheme, mesh.points, arguments.levels);
+  const Scheme last = arguments.levels > 0 ? scheme.after_first_step() : scheme;
+  Mesh refined = mesh_from_topology(surface.topology);
+  refined.boundary = scheme.boundary;
+  if (surface.topology.has_creases()) refined.crease_method = scheme.crease_method;
+  for (const Attribute& attribute : mesh.attributes) {
+    if (attribute.per_corner() || attribute.name == "normal") continue;
+    refined.attributes.push_back({attribute.name, refine(topology, scheme, attribute.values, arguments.levels).values, {}});
+  }
+  if (arguments.limit) {
+    refined.points = LimitMatrix(surface.topology, last).apply(surface.values);
+    refined.attributes.push_back({"normal", limit_normals(surface.topology, last, surface.values).vertices, {}});
+  } else {
+    refined.points = surface.values;
+  }
+  stages.finish("subdivide");
+  write_output(common, refined);
+  stages.finish("write");
+  Table table;
+  table.add("mesh", mesh_text(topology));
+  table.add("scheme", scheme_text(scheme));
+  table.add("refined", fmt::format("{} to {}{}", count_of(arguments.levels, "level", "levels"), mesh_text(surface.topology),
+                                   arguments.limit ? ", on the limit surface" : ""));
+  table.add("time", stages.text());
+  table.print(common);
+  write_json(common.report, {{"verb", "subdivide"},
+                             {"input", common.input},
+                             {"output", common.output},
+                             {"levels", arguments.levels},
+                             {"limit", arguments.limit},
+                             {"scheme", scheme_json(scheme)},
+                             {"vertices", surface.topology.vertex_count()},
+                             {"faces", surface.topology.face_count()},
+                             {"seconds", stages.json()}});
+  return 0;
+}
+
+}  // namespace batten::cli
