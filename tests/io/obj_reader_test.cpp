@@ -52,6 +52,12 @@ TEST(ObjReader, CornersKeepTheSharingOfTheirRows) {
   EXPECT_EQ(mesh.attributes[1].corner_rows, (Buffer<Index>{0, 0, 0, 0, -1, -1}));
 }
 
+TEST(ObjReader, EmptyFieldsOfACornerAreNone) {
+  const Mesh mesh = obj(std::string(kTriangle) + "f 1/ 2// 3\n");
+  EXPECT_EQ(mesh.face_vertices, (Buffer<Index>{0, 1, 2}));
+  EXPECT_TRUE(mesh.attributes.empty());
+}
+
 TEST(ObjReader, NormalsOfAPointCloudBelongToItsVertices) {
   const Mesh mesh = obj("v 0 0 0\nvn 1 0 0\nv 1 1 1\nvn 0 1 0\n");
   ASSERT_EQ(mesh.attributes.size(), 1U);

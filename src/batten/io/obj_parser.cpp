@@ -96,17 +96,13 @@ class ObjParser {
     piece_.face_sizes.push_back(static_cast<Index>(size));
   }
 
-  /// i, i/j, i//k or i/j/k.
+  /// i, i/j, i//k or i/j/k; an empty field is none.
   void face_corner() {
     add_row(piece_.vertex_rows, piece_.points.size() / kPointColumns);
-    bool has_uv = false;
-    bool has_normal = false;
-    if (scanner_.skip('/')) {
-      has_uv = !scanner_.skip('/');
-      if (has_uv) add_optional_row(piece_.uv_rows, piece_.uvs.size() / kUvColumns);
-      has_normal = !has_uv || scanner_.skip('/');
-      if (has_normal) add_optional_row(piece_.normal_rows, piece_.normals.size() / kPointColumns);
-    }
+    const bool has_uv = scanner_.skip('/') && !scanner_.at_field_end('/');
+    if (has_uv) add_optional_row(piece_.uv_rows, piece_.uvs.size() / kUvColumns);
+    const bool has_normal = scanner_.skip('/') && !scanner_.at_field_end('/');
+    if (has_normal) add_optional_row(piece_.normal_rows, piece_.normals.size() / kPointColumns);
     if (!has_uv && !piece_.uv_rows.rows.empty()) piece_.uv_rows.rows.push_back(CornerRows::kNone);
     if (!has_normal && !piece_.normal_rows.rows.empty()) piece_.normal_rows.rows.push_back(CornerRows::kNone);
   }

@@ -93,6 +93,9 @@ class Scanner {
     return true;
   }
 
+  /// True where nothing stands before the next blank or `separator`.
+  bool at_field_end(char separator) const { return ends_token(here_) || *here_ == separator; }
+
   /// What is left of the line, continued lines joined, without the blanks around it.
   std::string rest_of_line();
 
