@@ -41,11 +41,9 @@ class Scanner {
 
   /// The token at hand, or an empty one at the end of the line.
   std::string_view word() {
+    const bool stands = next_token();
     const char* begin = here_;
-    if (next_token()) {
-      begin = here_;
-      while (!ends_token(here_)) ++here_;
-    }
+    while (stands && !ends_token(here_)) ++here_;
     return {begin, static_cast<std::size_t>(here_ - begin)};
   }
 
