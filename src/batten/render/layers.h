@@ -50,9 +50,9 @@ struct Layers {
 
 /// Smooths KeySeen, SkySeen and the ground's. `pixel` is a pixel's size in space, in the frame's unit.
 ///
-/// Each pixel's samples are one part of a pattern that repeats every 4x4 pixels, so a box of 4x4 pixels holds all of
-/// the pattern and no noise. It is followed by a wider one with holes. Neighbours count as far as they lie in the
-/// pixel's tangent plane and face the same way. O(pixels): 16 neighbours each.
+/// The pattern of light rays is spread over blocks of 8x8 pixels, evenly in each square of 4x4: a box of 4x4 pixels
+/// holds next to no noise, and the second pass adds the block's other squares. Neighbours count as far as they lie in
+/// the pixel's tangent plane and face the same way. O(pixels): 16 neighbours each.
 void smooth_light(Layers& layers, float pixel);
 
 }  // namespace batten::render_detail

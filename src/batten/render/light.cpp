@@ -10,15 +10,15 @@ namespace batten::render_detail {
 namespace {
 
 constexpr float kKeyRadius = 0.22F;  // tangent of the half-angle of the key's disc
-const Vec kKeyColor(2.05F, 1.93F, 1.75F);
-const Vec kSkyColor(0.66F, 0.70F, 0.76F);
-const Vec kBounceColor(0.40F, 0.37F, 0.33F);
-const Vec kFillColor(0.20F, 0.22F, 0.26F);
-constexpr float kGloss = 0.10F;
+const Vec kKeyColor(1.62F, 1.52F, 1.38F);
+const Vec kSkyColor(0.37F, 0.41F, 0.47F);
+const Vec kBounceColor(0.27F, 0.24F, 0.21F);
+const Vec kFillColor(0.13F, 0.15F, 0.19F);
+constexpr float kGloss = 0.15F;
 constexpr float kRim = 0.22F;
 
 /// Where the ground lies in full shadow, this much of the background is left of each colour.
-const Vec kGroundShadow(0.50F, 0.52F, 0.56F);
+const Vec kGroundShadow(0.27F, 0.285F, 0.31F);
 constexpr float kGroundKeyShare = 0.55F;
 
 /// Straight up to kKnee, then a shoulder that reaches 1 at infinity.

@@ -1,6 +1,6 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numeric>
 
 #include "batten/parallel/parallel.h"
 #include "batten/render/geometry.h"
@@ -8,8 +8,17 @@
 namespace batten::render_detail {
 namespace {
 
-constexpr float kSplitCosine = 0.7660444F;  // of 40 degrees
-constexpr float kHalfCosine = 0.9396926F;   // of 20 degrees: any two within it of a third meet at less than 40
+// Faces that meet at less than 34 degrees share their normals, at more than 48 none of them. In between they share in
+// part: scans have many edges near 40 degrees, and a sharp limit would draw a saw along them.
+constexpr float kSharedCosine = 0.8290376F;
+constexpr float kSplitCosine = 0.6691306F;
+constexpr float kHalfSharedCosine = 0.9563048F;  // of 17 degrees: any two within it of a third meet at less than 34
+constexpr int kMostSteps = 32;
+
+float shared(float cosine) {
+  const float t = std::clamp((cosine - kSplitCosine) / (kSharedCosine - kSplitCosine), 0.0F, 1.0F);
+  return t * t * (3.0F - 2.0F * t);
+}
 
 Vec unit(const Vec& v) {
   const float length = v.norm();
@@ -74,14 +83,11 @@ class VertexFan {
     const Vec mean = unit(sum);
     normals[vertex] = mean;
     bool smooth = true;
-    for (Index i = 0; i < size_; ++i) smooth = smooth && mean.dot(normal(i)) > kHalfCosine;
+    for (Index i = 0; i < size_; ++i) smooth = smooth && mean.dot(normal(i)) > kHalfSharedCosine;
     if (smooth) return false;
-    find_groups();
-    const bool split = std::any_of(groups_.begin(), groups_.end(), [](Index group) { return group != 0; });
-    if (!split) return false;
-    sums_.assign(static_cast<std::size_t>(size_), Vec::Zero());
-    for (Index i = 0; i < size_; ++i) sums_[groups_[i]] += weights_[i] * normal(i);
-    for (Index i = 0; i < size_; ++i) normals[mesh_.vertex_count() + corner(i)] = unit(sums_[groups_[i]]);
+    if (!find_neighbours()) return false;
+    shares_.assign(static_cast<std::size_t>(size_), 0.0F);
+    for (Index i = 0; i < size_; ++i) normals[mesh_.vertex_count() + corner(i)] = corner_normal(i);
     return true;
   }
 
@@ -102,31 +108,58 @@ class VertexFan {
     return std::atan2(a.cross(b).norm(), a.dot(b));
   }
 
-  /// groups_[i]: the lowest corner of i's run. Corners that share an edge stand together once the edges are sorted.
-  void find_groups() {
-    groups_.resize(static_cast<std::size_t>(size_));
-    std::iota(groups_.begin(), groups_.end(), 0);
+  struct Link {
+    Index other = -1;
+    float shared = 0.0F;
+  };
+
+  /// Fills links_: what lies beyond a corner's two edges. Corners that share an edge stand together once the edges are
+  /// sorted. False where every link shares all.
+  bool find_neighbours() {
+    links_.assign(static_cast<std::size_t>(size_), {});
     edges_.clear();
     for (Index i = 0; i < size_; ++i) {
-      edges_.emplace_back(neighbour(corner(i), 1), i);
-      edges_.emplace_back(neighbour(corner(i), -1), i);
+      edges_.emplace_back(neighbour(corner(i), 1), 2 * i);
+      edges_.emplace_back(neighbour(corner(i), -1), 2 * i + 1);
     }
     std::sort(edges_.begin(), edges_.end());
+    bool any_split = false;
     for (std::size_t e = 0; e + 1 < edges_.size(); ++e) {
       if (edges_[e].first != edges_[e + 1].first) continue;
       const Index a = edges_[e].second;
       const Index b = edges_[e + 1].second;
-      if (normal(a).dot(normal(b)) < kSplitCosine) continue;
-      const Index low = std::min(root(a), root(b));
-      groups_[root(a)] = low;
-      groups_[root(b)] = low;
+      const float part = shared(normal(a / 2).dot(normal(b / 2)));
+      links_[a / 2][a % 2] = {b / 2, part};
+      links_[b / 2][b % 2] = {a / 2, part};
+      any_split = any_split || part < 1.0F;
     }
-    for (Index i = 0; i < size_; ++i) groups_[i] = root(i);
+    return any_split;
   }
 
-  Index root(Index i) const {
-    while (groups_[i] != i) i = groups_[i];
-    return i;
+  /// The normals of the faces around, each weighted by the product of what the edges up to it share, by the better way.
+  Vec corner_normal(Index i) {
+    reached_.assign(1, i);
+    shares_[i] = 1.0F;
+    walk(i, 0);
+    walk(i, 1);
+    Vec sum = Vec::Zero();
+    for (const Index j : reached_) {
+      sum += shares_[j] * weights_[j] * normal(j);
+      shares_[j] = 0.0F;
+    }
+    return unit(sum);
+  }
+
+  void walk(Index i, std::size_t side) {
+    float part = 1.0F;
+    for (int step = 0; step < kMostSteps; ++step) {
+      const Link& link = links_[i][side];
+      part *= link.shared;
+      if (link.other < 0 || part < 1e-3F) return;
+      i = link.other;
+      if (shares_[i] == 0.0F) reached_.push_back(i);
+      shares_[i] = std::max(shares_[i], part);
+    }
   }
 
   const Mesh& mesh_;
@@ -136,8 +169,9 @@ class VertexFan {
   Index begin_ = 0;
   Index size_ = 0;
   std::vector<float> weights_;
-  std::vector<Index> groups_;
-  std::vector<Vec> sums_;
+  std::vector<std::array<Link, 2>> links_;
+  std::vector<float> shares_;
+  std::vector<Index> reached_;
   std::vector<std::pair<Index, Index>> edges_;
 };
 

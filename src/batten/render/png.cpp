@@ -1,6 +1,7 @@
 #include <png.h>
 
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -12,7 +13,9 @@ namespace {
 
 void append_bytes(png_structp png, png_bytep bytes, png_size_t count) {
   auto& out = *static_cast<Buffer<unsigned char>*>(png_get_io_ptr(png));
-  out.insert(out.end(), bytes, bytes + count);
+  const std::size_t old = out.size();
+  out.resize(old + count);
+  std::memcpy(out.data() + old, bytes, count);
 }
 
 void flush_nothing(png_structp /*png*/) {}

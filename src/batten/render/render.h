@@ -1,8 +1,9 @@
 /// \file A picture of a mesh: Embree rays, soft shadows, four samples a pixel, a default view that shows the shape.
 ///
 /// The shape stands on a ground that shows nothing but its shadow. Light: a broad key from the upper left, a sky dome,
-/// a weak fill; one shadow ray and one sky ray a sample, spread over 4x4 pixels so that a small filter, which stops at
-/// edges, sums them into 64 (samples = 2) of each. Fixed patterns: the same picture for any number of threads.
+/// a weak fill; one shadow ray and one sky ray a sample, in a pattern spread over 8x8 pixels so that a small filter,
+/// which stops at edges, sums them into 256 (samples = 2) of each. Fixed patterns: the same picture for any number of
+/// threads.
 #pragma once
 #include <array>
 #include <optional>
@@ -17,12 +18,13 @@ using Color = std::array<float, 3>;  ///< linear, in [0, 1]
 /// What the picture shows. `surface` is drawn as it stands (refine it first); the rest is drawn with it where present.
 /// Any of them may be empty, not all. Markers and lines cast no shadow.
 struct Scene {
-  Mesh surface;    ///< polygons; more than three corners: drawn as fans. Holes are not drawn
-  Values normals;  ///< V-by-3 shading normals, or empty: from the faces, split where they meet at > 40 degrees
-  Values colors;   ///< V-by-3 linear colours, or empty: surface_color
+  Mesh surface;  ///< polygons; more than three corners: drawn as fans. Holes are not drawn
+  Values
+      normals;  ///< V-by-3 shading normals, or empty: from the faces, split where they meet at about 40 degrees or more
+  Values colors;                  ///< V-by-3 linear colours, or empty: surface_color
   Points markers = Points(0, 3);  ///< drawn as small spheres (the targets)
   Mesh lines;                     ///< its edges are drawn as thin tubes (the control mesh)
-  Color surface_color{0.74F, 0.46F, 0.21F};
+  Color surface_color{0.60F, 0.335F, 0.140F};
   Color back_color{0.33F, 0.42F, 0.50F};  ///< of the faces' back sides
   Color marker_color{0.018F, 0.040F, 0.115F};
   Color line_color{0.030F, 0.075F, 0.190F};

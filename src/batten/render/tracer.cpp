@@ -7,8 +7,10 @@
 namespace batten::render_detail {
 namespace {
 
-constexpr float kLift = 2e-4F;         // off the surface, before a shadow ray starts
-constexpr float kSkyReach = 0.9F;      // what is farther than this hides no sky
+constexpr float kLift = 2e-4F;     // off the surface, before a shadow ray starts
+constexpr float kSkyReach = 0.9F;  // what is farther than this hides no sky
+constexpr float kGroundSkyReach = 0.6F;
+constexpr int kFrame = 8;          // pixels at the picture's edge that are background exactly, whatever the smoothing
 constexpr float kEverywhere = 100.0F;  // beyond anything inside the unit sphere or near it
 
 Vec to_vec(const Color& color) { return {color[0], color[1], color[2]}; }
@@ -25,8 +27,14 @@ Vec round_origin(const Vec& point, const std::array<Vec, 3>& corners, const std:
   return point + shift;
 }
 
-/// The place of pixel (x, y) in its 4x4 block, so that each 2x2 quarter has consecutive places.
-int block_place(int x, int y) { return (x & 1) | (y & 1) << 1 | (x & 2) << 1 | (y & 2) << 2; }
+constexpr int kBlock = 8;  // pixels, in each direction, that the pattern of light rays is spread over
+
+/// The place of pixel (x, y) in its block, so that each square of 2x2, and of 4x4, has consecutive places.
+int block_place(int x, int y) {
+  int place = 0;
+  for (int bit = 0; (1 << bit) < kBlock; ++bit) place |= ((x >> bit & 1) | (y >> bit & 1) << 1) << 2 * bit;
+  return place;
+}
 
 /// Sums over the samples of one pixel.
 struct PixelSums {
@@ -126,7 +134,7 @@ Tracer::Tracer(const Scene& scene, const RenderOptions& options, const Triangles
       offsets_.emplace_back((x + (y + 0.5F) / n) / n, (y + (n - x - 0.5F) / n) / n);
     }
   }
-  const int rows = 16 * samples_;
+  const int rows = kBlock * kBlock * samples_;
   for (int i = 0; i < rows; ++i) {
     const float half = 0.5F / static_cast<float>(rows);
     pattern_.emplace_back(spread_point(static_cast<std::uint32_t>(i)) + Eigen::Vector2f(half, half));
@@ -235,11 +243,19 @@ void Tracer::take_ground(Square& square, std::size_t sample, const Vec& towards)
   if (fall <= 1e-4F) return;
   const float distance = (camera_.eye.dot(camera_.world_up) - camera_.ground_height) / fall;
   const Vec position = camera_.eye + distance * towards;
-  const float share = ground_share((position - camera_.ground_height * camera_.world_up).norm());
-  if (share <= 0.0F) return;
   const int pixel = square.pixel(sample, samples_);
+  const float share = ground_share((position - camera_.ground_height * camera_.world_up).norm()) *
+                      frame_share(square.left + pixel % square.width, square.top + pixel / square.width);
+  if (share <= 0.0F) return;
   square.pixels[static_cast<std::size_t>(pixel)][Plane::GroundWeight] += 1.0F;
   square.shades.push_back({position, camera_.world_up, camera_.world_up, pixel, pattern_row(square, sample), share});
+}
+
+float Tracer::frame_share(int x, int y) const {
+  const int inside = std::min(std::min(x, width_ - 1 - x), std::min(y, height_ - 1 - y)) - kFrame;
+  const float t =
+      std::clamp(static_cast<float>(inside) / (0.12F * static_cast<float>(std::min(width_, height_))), 0.0F, 1.0F);
+  return t * t * (3.0F - 2.0F * t);
 }
 
 int Tracer::pattern_row(const Square& square, std::size_t sample) const {
@@ -250,7 +266,7 @@ int Tracer::pattern_row(const Square& square, std::size_t sample) const {
 
 void Tracer::trace_light_rays(Square& square) const {
   // Points with the same row of the pattern send their rays the same way: packets of those stay together.
-  std::vector<int> offsets(static_cast<std::size_t>(16 * samples_) + 1, 0);
+  std::vector<int> offsets(pattern_.size() + 1, 0);
   for (const Shade& shade : square.shades) ++offsets[static_cast<std::size_t>(shade.pattern) + 1];
   for (std::size_t i = 1; i < offsets.size(); ++i) offsets[i] += offsets[i - 1];
   std::vector<const Shade*> order(square.shades.size());
@@ -285,7 +301,7 @@ void Tracer::trace_light_rays(Square& square) const {
     // Under the facet's plane there is only the facet: the ray is mirrored to the outside.
     const float inside = std::min(0.0F, towards.dot(shade->geometric));
     towards -= 2.0F * inside * shade->geometric;
-    packet.add(*shade, towards, kSkyReach, sky_seen);
+    packet.add(*shade, towards, shade->ground_share >= 0.0F ? kGroundSkyReach : kSkyReach, sky_seen);
   }
   packet.flush(sky_seen);
 }

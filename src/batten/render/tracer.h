@@ -10,7 +10,8 @@ struct Square;
 /// Const while it traces: squares may be traced by several threads at once.
 class Tracer {
  public:
-  static constexpr int kSquare = 32;  ///< a multiple of 4, so that the samples' pattern does not break
+  static constexpr int kSquare =
+      32;  ///< a multiple of the pattern's block, so that the samples' pattern does not break
 
   Tracer(const Scene& scene, const RenderOptions& options, const Triangles& triangles, const Rays& rays,
          const Camera& camera);
@@ -24,6 +25,8 @@ class Tracer {
   void take_hit(Square& square, std::size_t sample, const Vec& towards, const RTCRayHit16& rays, int lane) const;
   void take_ground(Square& square, std::size_t sample, const Vec& towards) const;
   void trace_light_rays(Square& square) const;
+  /// How much of a shadow is drawn at a pixel: none at the picture's edge, so that it sits on a page without a seam.
+  float frame_share(int x, int y) const;
   int pattern_row(const Square& square, std::size_t sample) const;
   Surfel surface_surfel(unsigned triangle, float u, float v, const Vec& towards) const;
   Surfel overlay_surfel(Part part, const Vec& position, const Vec& normal) const;
@@ -41,7 +44,7 @@ class Tracer {
   Vec marker_color_;
   Vec line_color_;
   std::vector<Eigen::Vector2f> offsets_;  ///< of a pixel's samples, in pixels
-  std::vector<Eigen::Vector2f> pattern_;  ///< 16 times as many
+  std::vector<Eigen::Vector2f> pattern_;  ///< of all samples of a block of pixels
   std::vector<Vec> key_directions_;       ///< of the pattern
 };
 
