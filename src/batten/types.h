@@ -11,8 +11,8 @@ using Index = std::int32_t;
 /// N-by-k, row i belongs to element i. Everything linear works on these; positions are k = 3.
 using Values = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
-/// Binds to Values, to Points and to blocks of rows or columns without a copy.
-using ConstValuesRef = Eigen::Ref<const Values, 0, Eigen::OuterStride<>>;
+/// A parameter type: binds to Values, to Points and to blocks of rows or columns without a copy.
+using ConstValuesRef = const Eigen::Ref<const Values, 0, Eigen::OuterStride<>>&;
 using ValuesRef = Eigen::Ref<Values, 0, Eigen::OuterStride<>>;
 
 /// What the surface does at a boundary (OpenSubdiv's names).

@@ -53,6 +53,17 @@ void append(SolveReport& report, const SolveReport& next, const char* joint) {
                                  next.residual_history.end());
 }
 
+/// Keeps the ten largest errors, the largest first; of equal ones the lower vertex.
+void keep_worst(std::vector<VertexError>& worst, const VertexError& entry) {
+  constexpr std::size_t kKept = 10;
+  const auto before = [](const VertexError& a, const VertexError& b) {
+    return a.error != b.error ? a.error > b.error : a.vertex < b.vertex;
+  };
+  if (worst.size() == kKept && !before(entry, worst.back())) return;
+  worst.insert(std::upper_bound(worst.begin(), worst.end(), entry, before), entry);
+  if (worst.size() > kKept) worst.pop_back();
+}
+
 }  // namespace
 
 struct Interpolator::Parts {
@@ -62,7 +73,6 @@ struct Interpolator::Parts {
   LimitMatrix matrix;
   CreaseCurves curves;
   std::vector<SingularComponent> singular;
-  Buffer<Index> valence_two;
   std::unique_ptr<FreeBlock> block;
   std::unique_ptr<TiledIteration> tiles;
 
@@ -72,8 +82,7 @@ struct Interpolator::Parts {
         options(options_in),
         matrix(topology_in, scheme_in, {options_in.masks, {}}),
         curves(find_crease_curves(matrix)),
-        singular(find_singular_components(matrix)),
-        valence_two(find_valence_two_components(matrix)) {
+        singular(find_singular_components(matrix)) {
     Buffer<std::uint8_t> free(static_cast<std::size_t>(topology.vertex_count()));
     for (Index v = 0; v < topology.vertex_count(); ++v) {
       const LimitRow row = matrix.row_kind(v);
@@ -194,6 +203,7 @@ struct Interpolator::Parts {
 
   /// The block failed, and there are vertices of valence 2, where it may be singular: alpha = 1 makes it definite.
   void rescue_valence_two(ConstValuesRef targets, const StopRule& stop, Interpolant& result) const {
+    const Buffer<Index> valence_two = find_valence_two_components(matrix);
     if (valence_two.empty() || options.on_singular != OnSingular::Alpha || scheme.kind == SchemeKind::Loop) return;
     Buffer<std::uint8_t> vertices(static_cast<std::size_t>(topology.vertex_count()), 0);
     for (const Index v : valence_two) vertices[v] = matrix.row_kind(v) == LimitRow::Smooth ? 1 : 0;
@@ -201,25 +211,49 @@ struct Interpolator::Parts {
   }
 
   void measure(ConstValuesRef targets, Interpolant& result) const {
-    Values errors = result.vertex_alpha.empty()
-                        ? matrix.apply(result.control)
-                        : LimitMatrix(topology, scheme, {options.masks, result.vertex_alpha}).apply(result.control);
-    errors -= targets;
-    std::vector<VertexError> all(static_cast<std::size_t>(errors.rows()));
-    double squares = 0.0;
-    for (Index v = 0; v < topology.vertex_count(); ++v) {
-      all[v] = {v, errors.row(v).norm()};
-      squares += all[v].error * all[v].error;
-      result.max_movement = std::max(result.max_movement, (result.control.row(v) - targets.row(v)).norm());
-    }
-    const auto worst = std::min<std::size_t>(10, all.size());
-    std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(worst), all.end(),
-                      [](const VertexError& a, const VertexError& b) {
-                        return a.error != b.error ? a.error > b.error : a.vertex < b.vertex;
-                      });
-    result.worst.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(worst));
-    result.max_error = all.empty() ? 0.0 : all.front().error;
-    result.rms_error = all.empty() ? 0.0 : std::sqrt(squares / static_cast<double>(all.size()));
+    if (result.vertex_alpha.empty()) return measure_with(matrix, targets, result);
+    measure_with(LimitMatrix(topology, scheme, {options.masks, result.vertex_alpha}), targets, result);
+  }
+
+  /// Row by row from the limit matrix, in double, whatever the solver thinks it reached.
+  static void measure_with(const LimitMatrix& a, ConstValuesRef targets, Interpolant& result) {
+    struct Measured {
+      std::vector<VertexError> worst;
+      double squares = 0.0;
+      double movement = 0.0;
+    };
+    const Values& control = result.control;
+    const auto measure_rows = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+      Measured part;
+      Buffer<double> row(static_cast<std::size_t>(control.cols()));
+      for (auto v = static_cast<Index>(begin); v < end; ++v) {
+        for (std::ptrdiff_t c = 0; c < control.cols(); ++c) row[c] = -targets(v, c);
+        a.visit_row(v, [&](Index column, double weight) {
+          for (std::ptrdiff_t c = 0; c < control.cols(); ++c) row[c] += weight * control(column, c);
+        });
+        double square = 0.0;
+        double movement = 0.0;
+        for (std::ptrdiff_t c = 0; c < control.cols(); ++c) {
+          square += row[c] * row[c];
+          movement += (control(v, c) - targets(v, c)) * (control(v, c) - targets(v, c));
+        }
+        part.squares += square;
+        part.movement = std::max(part.movement, movement);
+        keep_worst(part.worst, {v, std::sqrt(square)});
+      }
+      return part;
+    };
+    const auto combine = [](Measured left, const Measured& right) {
+      for (const VertexError& entry : right.worst) keep_worst(left.worst, entry);
+      left.squares += right.squares;
+      left.movement = std::max(left.movement, right.movement);
+      return left;
+    };
+    const Measured all = parallel_reduce(control.rows(), Measured(), measure_rows, combine);
+    result.worst = all.worst;
+    result.max_error = all.worst.empty() ? 0.0 : all.worst.front().error;
+    result.rms_error = control.rows() > 0 ? std::sqrt(all.squares / static_cast<double>(control.rows())) : 0.0;
+    result.max_movement = std::sqrt(all.movement);
   }
 };
 
@@ -253,7 +287,7 @@ Interpolant Interpolator::solve(ConstValuesRef targets, const Progress& progress
   try {
     result.report = parts.solve_block(targets, result.control, stop);
   } catch (const Error& error) {
-    if (error.code() != ErrorCode::SingularSystem || parts.valence_two.empty()) throw;
+    if (error.code() != ErrorCode::SingularSystem || find_valence_two_components(parts.matrix).empty()) throw;
   }
   if (!result.report.converged) parts.rescue_valence_two(targets, stop, result);
   if (!parts.singular.empty()) parts.solve_singular(targets, stop, result);

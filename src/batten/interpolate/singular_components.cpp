@@ -9,7 +9,7 @@ namespace {
 bool colour_region(const LimitMatrix& matrix, Index seed, Buffer<std::int8_t>& sign, SingularComponent& component) {
   const Topology& topology = matrix.topology();
   const auto is_candidate = [&](Index v) {
-    return matrix.row_kind(v) == LimitRow::Smooth && matrix.alpha(v) == 0.0 && topology.vertex_face_count(v) == 3;
+    return matrix.row_kind(v) == LimitRow::Smooth && matrix.alpha(v) == 0.0 && matrix.face_count(v) == 3;
   };
   bool singular = true;
   sign[seed] = 1;
@@ -41,7 +41,7 @@ std::vector<SingularComponent> find_singular_components(const LimitMatrix& matri
   Buffer<std::int8_t> sign(static_cast<std::size_t>(topology.vertex_count()), 0);
   for (Index v = 0; v < topology.vertex_count(); ++v) {
     if (sign[v] != 0 || matrix.row_kind(v) != LimitRow::Smooth || matrix.alpha(v) != 0.0 ||
-        topology.vertex_face_count(v) != 3) {
+        matrix.face_count(v) != 3) {
       continue;
     }
     SingularComponent component;
@@ -55,7 +55,7 @@ Buffer<Index> find_valence_two_components(const LimitMatrix& matrix) {
   Buffer<Index> found;
   Buffer<Index> seeds;
   for (Index v = 0; v < topology.vertex_count(); ++v) {
-    if (matrix.row_kind(v) == LimitRow::Smooth && topology.vertex_face_count(v) == 2) seeds.push_back(v);
+    if (matrix.row_kind(v) == LimitRow::Smooth && matrix.face_count(v) == 2) seeds.push_back(v);
   }
   if (seeds.empty()) return found;
   const Components components = connected_components(topology);

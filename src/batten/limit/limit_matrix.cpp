@@ -51,6 +51,7 @@ LimitMatrix::LimitMatrix(const Topology& topology, const Scheme& scheme, LimitOp
     throw Error(ErrorCode::BadShape, "vertex_alpha must have one entry a vertex");
   }
   kinds_.resize(static_cast<std::size_t>(topology.vertex_count()));
+  face_counts_.resize(static_cast<std::size_t>(topology.vertex_count()));
   parallel_for(topology.vertex_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     VertexRing ring;
     for (auto v = static_cast<Index>(begin); v < end; ++v) classify(v, ring);
@@ -63,6 +64,7 @@ LimitMatrix::LimitMatrix(const Topology& topology, const Scheme& scheme, LimitOp
 }
 
 void LimitMatrix::classify(Index vertex, VertexRing& ring) {
+  face_counts_[vertex] = static_cast<std::uint8_t>(std::min<Index>(255, topology_.vertex_face_count(vertex)));
   LimitRow row = LimitRow::Smooth;
   const bool plain_triangles =
       scheme_.kind == SchemeKind::Loop || scheme_.triangle_rule == TriangleRule::Catmark;
@@ -91,7 +93,7 @@ void LimitMatrix::classify(Index vertex, VertexRing& ring) {
     }
   }
   if (row == LimitRow::Smooth && options_.masks == LimitMasks::OpenSubdiv && scheme_.kind == SchemeKind::CatmullClark &&
-      topology_.vertex_face_count(vertex) == 2) {
+      face_count(vertex) == 2) {
     row = LimitRow::Fixed;
   }
   kinds_[vertex] = static_cast<std::uint8_t>(row);
@@ -123,7 +125,7 @@ LimitMatrix::Weights LimitMatrix::smooth_weights(Index vertex, int valence) cons
 
 double LimitMatrix::row_scale(Index vertex) const {
   if (row_kind(vertex) != LimitRow::Smooth) return 1.0;
-  const double n = topology_.vertex_face_count(vertex);
+  const double n = face_count(vertex);
   if (scheme_.kind == SchemeKind::CatmullClark) return n * (n + 5.0);
   return 1.0 / limit_mask(SchemeKind::Loop, static_cast<int>(n)).edge;
 }
@@ -176,9 +178,7 @@ void LimitMatrix::apply_columns(const double* in, std::ptrdiff_t stride, Values&
         visit_row(v, [&](Index column, double weight) { add(target, weight, in + column * stride); });
         continue;
       }
-      int valence = 0;
-      topology_.for_each_outgoing(v, [&](Index /*h*/) { ++valence; });
-      const Weights weights = smooth_weights(v, valence);
+      const Weights weights = smooth_weights(v, face_count(v));
       topology_.for_each_outgoing(v, [&](Index h) {
         add(target, weights.edge, in + topology_.destination(h) * stride);
         if (quads) {

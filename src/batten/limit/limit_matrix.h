@@ -39,6 +39,11 @@ class LimitMatrix {
     return options_.vertex_alpha.empty() ? scheme_.alpha : options_.vertex_alpha[vertex];
   }
 
+  /// Number of faces at a vertex.
+  int face_count(Index vertex) const {
+    return face_counts_[vertex] < 255 ? face_counts_[vertex] : static_cast<int>(topology_.vertex_face_count(vertex));
+  }
+
   /// A values: values is V-by-k. Throws Error(BadShape).
   Values apply(ConstValuesRef values) const;
 
@@ -73,6 +78,7 @@ class LimitMatrix {
   Scheme scheme_;
   LimitOptions options_;
   Buffer<std::uint8_t> kinds_;
+  Buffer<std::uint8_t> face_counts_;   ///< 255 stands for 255 or more
   Buffer<Index> special_vertices_;  ///< ascending
   Buffer<std::size_t> special_offsets_;
   Buffer<Index> special_columns_;
@@ -111,7 +117,7 @@ void LimitMatrix::visit_row(Index vertex, const Visit& visit) const {
     case LimitRow::Smooth:
       break;
   }
-  const Weights weights = smooth_weights(vertex, static_cast<int>(topology_.vertex_face_count(vertex)));
+  const Weights weights = smooth_weights(vertex, face_count(vertex));
   double centre = weights.vertex;
   topology_.for_each_outgoing(vertex, [&](Index h) {
     if (scheme_.kind == SchemeKind::Loop) return visit(topology_.destination(h), weights.edge);

@@ -60,117 +60,174 @@ double lower_bound_from(double contraction, double lower, double upper) {
   return middle - half * std::cosh(std::acosh(value) / kSteps);
 }
 
+/// How many steps of the next round are enough, judging by the contraction of the last one; at most kSteps.
+int steps_needed(double wanted, double last_contraction, double lower, double upper) {
+  const double growth = std::acosh((upper + lower) / (upper - lower));
+  const double slack = last_contraction * std::cosh(kSteps * growth);
+  int steps = 1;
+  while (steps < kSteps && slack > 0.5 * wanted * std::cosh(steps * growth)) ++steps;
+  return steps;
+}
+
+/// Up to four columns of the problem in the order of the tiles.
+struct Columns {
+  Buffer<Double4> b;
+  Buffer<Double4> x;
+  Buffer<Float4> residual;  ///< (b - A x) / diagonal
+};
+
 /// What a thread needs for one tile.
 struct Scratch {
   Buffer<Float4> residual;
-  Buffer<Float4> a;
-  Buffer<Float4> b;
+  Buffer<Float4> now;
+  Buffer<Float4> previous;
   Buffer<Double4> x;
   Buffer<Double4> product;
 };
 
 Scratch& scratch_for(const Tile& tile) {
   thread_local Scratch scratch;
-  const std::size_t size = tile.globals.size();
+  const auto size = static_cast<std::size_t>(tile.ring_end.back());
   if (scratch.residual.size() < size) {
     scratch.residual.resize(size);
-    scratch.a.resize(size);
-    scratch.b.resize(size);
+    scratch.now.resize(size);
+    scratch.previous.resize(size);
     scratch.x.resize(size);
     scratch.product.resize(size);
   }
   return scratch;
 }
 
-/// Up to four columns of the problem.
-struct ColumnGroup {
-  const double* b;
-  std::ptrdiff_t b_stride;
-  double* x;
-  std::ptrdiff_t x_stride;
-  int columns;
-
-  void load(const double* base, std::ptrdiff_t stride, Index row, Double4& value) const {
-    const double* p = base + row * stride;
-    if (columns == 3) {
-      value = Double4{p[0], p[1], p[2], 0.0};
-      return;
+/// The columns [first, first + count) of the free rows; held values move to the right-hand side.
+Columns gather(const Tiling& tiling, ConstValuesRef b, const ValuesRef& x, std::ptrdiff_t first, std::ptrdiff_t count) {
+  Columns columns;
+  columns.b.resize(tiling.order.size());
+  columns.x.resize(tiling.order.size());
+  columns.residual.resize(tiling.order.size());
+  parallel_for(static_cast<std::ptrdiff_t>(tiling.order.size()), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (std::ptrdiff_t i = begin; i < end; ++i) {
+      const Index row = tiling.order[i];
+      columns.b[i] = columns.x[i] = Double4{0.0, 0.0, 0.0, 0.0};
+      for (std::ptrdiff_t c = 0; c < count; ++c) {
+        columns.b[i][c] = b(row, first + c);
+        columns.x[i][c] = x(row, first + c);
+      }
     }
-    value = Double4{p[0], 0.0, 0.0, 0.0};
-    for (int c = 1; c < columns; ++c) value[c] = p[c];
+  });
+  for (const HeldEntry& entry : tiling.held) {
+    for (std::ptrdiff_t c = 0; c < count; ++c) columns.b[entry.row][c] -= entry.weight * x(entry.column, first + c);
   }
+  return columns;
+}
+
+void scatter(const Tiling& tiling, const Columns& columns, std::ptrdiff_t first, std::ptrdiff_t count, ValuesRef& x) {
+  parallel_for(static_cast<std::ptrdiff_t>(tiling.order.size()), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (std::ptrdiff_t i = begin; i < end; ++i) {
+      for (std::ptrdiff_t c = 0; c < count; ++c) x(tiling.order[i], first + c) = columns.x[i][c];
+    }
+  });
+}
+
+/// Writes the residual of the tile's own rows, and returns the largest squared |b - A x| of a row.
+double measure(const Tiling& tiling, const Tile& tile, Columns& columns) {
+  Scratch& scratch = scratch_for(tile);
+  const Index own = tile.own_count;
+  std::copy_n(columns.x.begin() + tile.first, own, scratch.x.begin());
+  for (Index i = own; i < tile.ring_end[1]; ++i) scratch.x[i] = columns.x[tile.ghosts[i - own]];
+  tile_product(tile, tiling.patterns, scratch.x.data(), scratch.product.data());
+  double most = 0.0;
+  for (Index s = 0; s < tile.segment_end[0]; ++s) {
+    const TileSegment& segment = tile.segments[s];
+    const double inverse = 1.0 / tiling.patterns[segment.pattern].diagonal;
+    for (Index i = segment.first_row; i < segment.first_row + segment.row_count; ++i) {
+      const Double4 r = columns.b[tile.first + i] - scratch.product[i];
+      const Double4 square = r * r;
+      const double norm = square[0] + square[1] + square[2] + square[3];
+      if (!(norm <= most)) most = norm;  // so that NaN wins
+      columns.residual[tile.first + i] = __builtin_convertvector(r * inverse, Float4);
+    }
+  }
+  return most;
+}
+
+/// Runs a round's steps in the tile and adds the correction to its own unknowns.
+void correct(const Tiling& tiling, const Tile& tile, const Schedule& schedule, int steps, Columns& columns) {
+  Scratch& scratch = scratch_for(tile);
+  const Index own = tile.own_count;
+  std::copy_n(columns.residual.begin() + tile.first, own, scratch.residual.begin());
+  for (Index i = own; i < tile.ring_end[steps - 1]; ++i) scratch.residual[i] = columns.residual[tile.ghosts[i - own]];
+  Float4* now = scratch.now.data();
+  Float4* previous = scratch.previous.data();
+  for (Index s = 0; s < tile.segment_end[steps - 1]; ++s) {
+    const TileSegment& segment = tile.segments[s];
+    const auto diagonal = static_cast<float>(tiling.patterns[segment.pattern].diagonal);
+    const float step = schedule.step_by_diagonal ? schedule.step[0] * diagonal : schedule.step[0];
+    for (Index i = segment.first_row; i < segment.first_row + segment.row_count; ++i) {
+      now[i] = step * scratch.residual[i];
+      previous[i] = Float4{0.0F, 0.0F, 0.0F, 0.0F};
+    }
+  }
+  for (int k = 1; k < steps; ++k) {
+    tile_step(tile, tiling.patterns, steps - 1 - k, schedule.step[k], schedule.momentum[k], schedule.step_by_diagonal,
+              scratch.residual.data(), now, previous);
+    std::swap(now, previous);
+  }
+  for (Index i = 0; i < own; ++i) columns.x[tile.first + i] += __builtin_convertvector(now[i], Double4);
+}
+
+/// The rounds for up to four columns.
+class Rounds {
+ public:
+  Rounds(const Tiling& tiling, const IterationOptions& options, const StopRule& stop)
+      : tiling_(tiling), options_(options), stop_(stop), lower_(options.lower_bound) {}
+
+  void run(Columns& columns, double tolerance) {
+    const auto tile_count = static_cast<std::ptrdiff_t>(tiling_.tiles.size());
+    const bool chebyshev = options_.method == SolveMethod::Chebyshev;
+    double last = 0.0;
+    while (true) {
+      const double now = std::sqrt(parallel_reduce(
+          tile_count, 0.0,
+          [&](std::ptrdiff_t t, std::ptrdiff_t /*end*/) { return measure(tiling_, tiling_.tiles[t], columns); },
+          [](double a, double b) { return !(b <= a) ? b : a; }, 1));
+      history.push_back(now);
+      stop_.report(history.front(), now);
+      converged = now <= tolerance;
+      if (converged || iterations >= stop_.max_iterations || !std::isfinite(now)) return;
+      int steps = kSteps;
+      if (chebyshev && last > 0.0) {
+        const double contraction = now / last;
+        if (!(contraction < 0.95)) return;
+        lower_ = std::min(lower_, 0.9 * lower_bound_from(contraction, lower_, tiling_.upper_bound));
+        if (lower_ < options_.give_up_below) return;
+        steps = steps_needed(tolerance / now, contraction, lower_, tiling_.upper_bound);
+      }
+      const Schedule schedule = chebyshev ? chebyshev_schedule(lower_, tiling_.upper_bound) : stationary_schedule(options_);
+      parallel_for_each(tile_count,
+                        [&](std::ptrdiff_t t) { correct(tiling_, tiling_.tiles[t], schedule, steps, columns); });
+      iterations += steps;
+      last = steps == kSteps ? now : 0.0;
+    }
+  }
+
+  std::vector<double> history;
+  int iterations = 0;
+  bool converged = false;
+
+ private:
+  const Tiling& tiling_;
+  const IterationOptions& options_;
+  const StopRule& stop_;
+  double lower_;
 };
 
 }  // namespace
 
 struct TiledIteration::Tiles : Tiling {
   explicit Tiles(Tiling tiling) : Tiling(std::move(tiling)) {}
-
-  /// Writes (b - A x) / diagonal of the tile's own rows to residual, and returns the largest squared |b - A x|.
-  double measure(const Tile& tile, const ColumnGroup& group, Float4* residual, Double4* squares) const {
-    Scratch& scratch = scratch_for(tile);
-    for (Index i = 0; i < tile.ring_end[1]; ++i) {
-      group.load(group.x, group.x_stride, tile.globals[i], scratch.x[i]);
-    }
-    tile_product(tile, patterns, scratch.x.data(), scratch.product.data());
-    for (Index k = tile.held_begin; k < tile.held_end; ++k) {
-      Double4 x;
-      group.load(group.x, group.x_stride, held[k].column, x);
-      scratch.product[held[k].local_row] += held[k].weight * x;
-    }
-    double most = 0.0;
-    for (Index s = 0; s < tile.segment_end[0]; ++s) {
-      const TileSegment& segment = tile.segments[s];
-      const double inverse = 1.0 / patterns[segment.pattern].diagonal;
-      for (Index i = segment.first_row; i < segment.first_row + segment.row_count; ++i) {
-        const Index global = tile.globals[i];
-        Double4 r;
-        group.load(group.b, group.b_stride, global, r);
-        r -= scratch.product[i];
-        Double4 square = r * r;
-        if (squares != nullptr) square = squares[global] += square;
-        const double norm = square[0] + square[1] + square[2] + square[3];
-        if (!(norm <= most)) most = norm;
-        const Double4 scaled = r * inverse;
-        residual[global] = Float4{static_cast<float>(scaled[0]), static_cast<float>(scaled[1]),
-                                  static_cast<float>(scaled[2]), static_cast<float>(scaled[3])};
-      }
-    }
-    return most;
-  }
-
-  /// Runs the round's steps in the tile and adds the correction to its own unknowns.
-  void correct(const Tile& tile, const ColumnGroup& group, const Schedule& schedule, const Float4* residual) const {
-    Scratch& scratch = scratch_for(tile);
-    const Index all = tile.ring_end[Tile::kRings - 1];
-    Float4* now = scratch.a.data();
-    Float4* previous = scratch.b.data();
-    for (Index i = 0; i < all; ++i) {
-      scratch.residual[i] = residual[tile.globals[i]];
-      previous[i] = Float4{0.0F, 0.0F, 0.0F, 0.0F};
-    }
-    for (const TileSegment& segment : tile.segments) {
-      const auto diagonal = static_cast<float>(patterns[segment.pattern].diagonal);
-      const float step = schedule.step_by_diagonal ? schedule.step[0] * diagonal : schedule.step[0];
-      const Index last = segment.first_row + segment.row_count;
-      for (Index i = segment.first_row; i < last; ++i) now[i] = step * scratch.residual[i];
-    }
-    for (int k = 1; k < kSteps; ++k) {
-      tile_step(tile, patterns, kSteps - 1 - k, schedule.step[k], schedule.momentum[k], schedule.step_by_diagonal,
-                scratch.residual.data(), now, previous);
-      std::swap(now, previous);
-    }
-    for (Index i = 0; i < tile.own_count(); ++i) {
-      double* x = group.x + tile.globals[i] * group.x_stride;
-      for (int c = 0; c < group.columns; ++c) x[c] += static_cast<double>(now[i][c]);
-    }
-  }
 };
 
-TiledIteration::TiledIteration(const RowSource& rows) {
-  RowTable table(rows);
-  tiles_ = std::make_unique<Tiles>(make_tiling(table));
-}
+TiledIteration::TiledIteration(const RowSource& rows) : tiles_(std::make_unique<Tiles>(make_tiling(RowTable(rows)))) {}
 
 TiledIteration::~TiledIteration() = default;
 TiledIteration::TiledIteration(TiledIteration&&) noexcept = default;
@@ -180,54 +237,24 @@ double TiledIteration::overlap() const { return tiles_->overlap; }
 
 SolveReport TiledIteration::solve(ConstValuesRef b, ValuesRef x, const IterationOptions& options,
                                   const StopRule& stop) const {
-  if (tiles_->tiles.empty() && tiles_->free_count > 0) {
+  if (tiles_->tiles.empty() && !tiles_->order.empty()) {
     throw Error(ErrorCode::NotAvailable, "this system has rows too wide for tiles; take conjugate gradients");
   }
   const auto started = std::chrono::steady_clock::now();
   SolveReport report;
   report.method = options.method;
-  const auto tile_count = static_cast<std::ptrdiff_t>(tiles_->tiles.size());
-  const bool chebyshev = options.method == SolveMethod::Chebyshev;
-  double lower = options.lower_bound;
-  std::vector<ColumnGroup> groups;
-  for (std::ptrdiff_t c = 0; c < x.cols(); c += 4) {
-    groups.push_back({b.data() + c, b.outerStride(), x.data() + c, x.outerStride(),
-                      static_cast<int>(std::min<std::ptrdiff_t>(4, x.cols() - c))});
-  }
-  std::vector<Buffer<Float4>> residuals(groups.size());
-  for (Buffer<Float4>& residual : residuals) residual.resize(static_cast<std::size_t>(x.rows()));
-  Buffer<Double4> squares(groups.size() > 1 ? static_cast<std::size_t>(x.rows()) : 0);
-  while (true) {
-    double most = 0.0;
-    if (!squares.empty()) std::fill(squares.begin(), squares.end(), Double4{0.0, 0.0, 0.0, 0.0});
-    for (std::size_t g = 0; g < groups.size(); ++g) {
-      most = parallel_reduce(
-          tile_count, 0.0,
-          [&](std::ptrdiff_t begin, std::ptrdiff_t /*end*/) {
-            return tiles_->measure(tiles_->tiles[begin], groups[g], residuals[g].data(),
-                                   squares.empty() ? nullptr : squares.data());
-          },
-          [](double left, double right) { return !(right <= left) ? right : left; }, 1);
-    }
-    report.residual_history.push_back(std::sqrt(most));
-    const double now = report.residual_history.back();
-    stop.report(report.residual_history.front(), now);
-    report.converged = now <= stop.tolerance;
-    const std::size_t measured = report.residual_history.size();
-    if (measured > 1 && chebyshev && !report.converged) {
-      const double contraction = now / report.residual_history[measured - 2];
-      lower = std::min(lower, 0.9 * lower_bound_from(contraction, lower, tiles_->upper_bound));
-      if (!(contraction < 0.95) || lower < options.give_up_below) break;
-    }
-    if (report.converged || report.iterations >= stop.max_iterations || !std::isfinite(now)) break;
-    const Schedule schedule =
-        chebyshev ? chebyshev_schedule(lower, tiles_->upper_bound) : stationary_schedule(options);
-    for (std::size_t g = 0; g < groups.size(); ++g) {
-      parallel_for_each(tile_count, [&](std::ptrdiff_t t) {
-        tiles_->correct(tiles_->tiles[t], groups[g], schedule, residuals[g].data());
-      });
-    }
-    report.iterations += kSteps;
+  report.converged = true;
+  // Each group of four columns keeps to its share of a row's allowed length.
+  const std::ptrdiff_t groups = (x.cols() + 3) / 4;
+  for (std::ptrdiff_t g = 0; g < groups; ++g) {
+    const std::ptrdiff_t count = std::min<std::ptrdiff_t>(4, x.cols() - 4 * g);
+    Columns columns = gather(*tiles_, b, x, 4 * g, count);
+    Rounds rounds(*tiles_, options, stop);
+    rounds.run(columns, stop.tolerance / std::sqrt(static_cast<double>(groups)));
+    scatter(*tiles_, columns, 4 * g, count, x);
+    report.iterations = std::max(report.iterations, rounds.iterations);
+    report.converged = report.converged && rounds.converged;
+    report.residual_history.insert(report.residual_history.end(), rounds.history.begin(), rounds.history.end());
   }
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return report;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "batten/parallel/parallel.h"
 
@@ -63,92 +64,119 @@ Buffer<Index> grow_tiles(const RowTable& rows, Index count) {
   return order;
 }
 
-/// Adds the rings around the tile's own unknowns. local holds -1 everywhere before and after. False when too large.
-bool add_rings(const RowTable& rows, Buffer<Index>& local, Tile& tile) {
-  for (std::size_t i = 0; i < tile.globals.size(); ++i) local[tile.globals[i]] = static_cast<Index>(i);
-  tile.ring_end[0] = static_cast<Index>(tile.globals.size());
-  Index begin = 0;
-  for (int ring = 1; ring < Tile::kRings; ++ring) {
-    const Index end = tile.ring_end[ring - 1];
-    for (Index i = begin; i < end; ++i) {
-      const Index row = tile.globals[i];
-      const Index* columns = rows.columns(row);
-      for (Index k = 0; k < rows.column_count(row); ++k) {
-        if (local[columns[k]] >= 0) continue;
-        local[columns[k]] = static_cast<Index>(tile.globals.size());
-        tile.globals.push_back(columns[k]);
-      }
+/// Builds the rings around one tile after the other; a thread keeps one of these.
+class TileBuilder {
+ public:
+  TileBuilder(const RowTable& rows, const Buffer<Index>& order, const Buffer<Index>& place)
+      : rows_(rows), order_(order), place_(place), local_(order.size(), -1) {}
+
+  /// False when the tile grows too large.
+  bool build(Index first, Index own_count, Tile& tile) {
+    tile.first = first;
+    tile.own_count = own_count;
+    entries_.clear();
+    const bool fits = add_rings(tile);
+    if (fits) write_rows(tile);
+    for (const Index ghost : tile.ghosts) local_[ghost] = -1;
+    if (fits) sort_ghosts(tile);
+    return fits;
+  }
+
+ private:
+  Index unknown(const Tile& tile, Index local) const {
+    return local < tile.own_count ? tile.first + local : tile.ghosts[local - tile.own_count];
+  }
+
+  Index local_of(Tile& tile, Index unknown) {
+    const Index own = unknown - tile.first;
+    if (own >= 0 && own < tile.own_count) return own;
+    if (local_[unknown] < 0) {
+      local_[unknown] = tile.own_count + static_cast<Index>(tile.ghosts.size());
+      tile.ghosts.push_back(unknown);
     }
-    begin = end;
-    tile.ring_end[ring] = static_cast<Index>(tile.globals.size());
-    if (tile.globals.size() > static_cast<std::size_t>(kMostLocals)) return false;
+    return local_[unknown];
   }
-  return true;
-}
 
-void sort_rings_by_pattern(const RowTable& rows, Buffer<Index>& local, Tile& tile) {
-  Index begin = 0;
-  for (const Index end : tile.ring_end) {
-    std::stable_sort(tile.globals.begin() + begin, tile.globals.begin() + end,
-                     [&](Index a, Index b) { return rows.pattern_of(a) < rows.pattern_of(b); });
-    begin = end;
-  }
-  for (std::size_t i = 0; i < tile.globals.size(); ++i) local[tile.globals[i]] = static_cast<Index>(i);
-}
-
-void write_rows(const RowTable& rows, const Buffer<Index>& local, Tile& tile) {
-  Index row = 0;
-  std::size_t entry_count = 0;
-  for (Index i = 0; i < tile.ring_end[Tile::kRings - 2]; ++i) entry_count += rows.column_count(tile.globals[i]);
-  tile.columns.reserve(entry_count);
-  for (int ring = 0; ring < Tile::kRings; ++ring) {
-    const bool has_rows = ring + 1 < Tile::kRings;
-    bool fresh = true;
-    for (; row < tile.ring_end[ring]; ++row) {
-      const Index global = tile.globals[row];
-      const Index pattern = rows.pattern_of(global);
-      if (fresh || tile.segments.back().pattern != pattern) {
-        tile.segments.push_back({row, 0, pattern, static_cast<Index>(tile.columns.size())});
-        fresh = false;
+  /// Meets ring after ring; entries_ collects the columns of all rows but the last ring's, as local numbers.
+  bool add_rings(Tile& tile) {
+    tile.ring_end[0] = tile.own_count;
+    Index begin = 0;
+    for (int ring = 1; ring < Tile::kRings; ++ring) {
+      const Index end = tile.ring_end[ring - 1];
+      for (Index i = begin; i < end; ++i) {
+        const Index row = order_[unknown(tile, i)];
+        const Index* columns = rows_.columns(row);
+        const Index count = rows_.column_count(row);
+        for (Index k = 0; k < count; ++k) entries_.push_back(local_of(tile, place_[columns[k]]));
       }
-      ++tile.segments.back().row_count;
-      if (!has_rows) continue;
-      const Index* columns = rows.columns(global);
-      for (Index k = 0; k < rows.column_count(global); ++k) {
-        tile.columns.push_back(static_cast<std::uint16_t>(local[columns[k]]));
-      }
+      begin = end;
+      tile.ring_end[ring] = tile.own_count + static_cast<Index>(tile.ghosts.size());
+      if (tile.ring_end[ring] > kMostLocals) return false;
     }
-    tile.segment_end[ring] = static_cast<Index>(tile.segments.size());
+    return true;
   }
-}
 
-bool build_tile(const RowTable& rows, Buffer<Index>& local, Tile& tile) {
-  const bool fits = add_rings(rows, local, tile);
-  if (fits) {
-    sort_rings_by_pattern(rows, local, tile);
-    write_rows(rows, local, tile);
-    tile.globals.shrink_to_fit();
-  }
-  for (const Index global : tile.globals) local[global] = -1;
-  return fits;
-}
-
-void place_held_entries(const RowTable& rows, Tiling& tiling) {
-  if (rows.held().empty()) return;
-  std::vector<Index> first(static_cast<std::size_t>(rows.size()) + 1, 0);
-  for (const HeldEntry& entry : rows.held()) ++first[entry.row + 1];
-  for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
-  for (Tile& tile : tiling.tiles) {
-    tile.held_begin = static_cast<Index>(tiling.held.size());
-    for (Index i = 0; i < tile.own_count(); ++i) {
-      const Index row = tile.globals[i];
-      for (Index k = first[row]; k < first[row + 1]; ++k) {
-        tiling.held.push_back({i, rows.held()[k].column, rows.held()[k].weight});
-      }
+  /// new_place_: the sorted place of each local unknown; own unknowns are sorted already.
+  void sort_rings(const Tile& tile) {
+    const Index all = tile.ring_end.back();
+    sorted_.resize(static_cast<std::size_t>(all));
+    std::iota(sorted_.begin(), sorted_.end(), 0);
+    Index begin = tile.own_count;
+    for (int ring = 1; ring < Tile::kRings; ++ring) {
+      std::stable_sort(sorted_.begin() + begin, sorted_.begin() + tile.ring_end[ring],
+                       [&](Index a, Index b) { return pattern(tile, a) < pattern(tile, b); });
+      begin = tile.ring_end[ring];
     }
-    tile.held_end = static_cast<Index>(tiling.held.size());
+    new_place_.resize(sorted_.size());
+    for (Index i = 0; i < all; ++i) new_place_[sorted_[i]] = static_cast<std::uint16_t>(i);
   }
-}
+
+  Index pattern(const Tile& tile, Index local) const { return rows_.pattern_of(order_[unknown(tile, local)]); }
+
+  void write_rows(Tile& tile) {
+    sort_rings(tile);
+    starts_.resize(sorted_.size());
+    Index start = 0;
+    for (Index i = 0; i < tile.ring_end[Tile::kRings - 2]; ++i) {
+      starts_[i] = start;
+      start += rows_.column_count(order_[unknown(tile, i)]);
+    }
+    tile.columns.reserve(entries_.size());
+    Index row = 0;
+    for (int ring = 0; ring < Tile::kRings; ++ring) {
+      const bool has_rows = ring + 1 < Tile::kRings;
+      bool fresh = true;
+      for (; row < tile.ring_end[ring]; ++row) {
+        const Index local = sorted_[row];
+        const Index shape = pattern(tile, local);
+        if (fresh || tile.segments.back().pattern != shape) {
+          tile.segments.push_back({row, 0, shape, static_cast<Index>(tile.columns.size())});
+          fresh = false;
+        }
+        ++tile.segments.back().row_count;
+        if (!has_rows) continue;
+        const auto count = static_cast<Index>(rows_.patterns()[shape].weights.size());
+        for (Index k = 0; k < count; ++k) tile.columns.push_back(new_place_[entries_[starts_[local] + k]]);
+      }
+      tile.segment_end[ring] = static_cast<Index>(tile.segments.size());
+    }
+  }
+
+  void sort_ghosts(Tile& tile) const {
+    Buffer<Index> ghosts(tile.ghosts.size());
+    for (std::size_t i = 0; i < ghosts.size(); ++i) ghosts[i] = tile.ghosts[sorted_[tile.own_count + i] - tile.own_count];
+    tile.ghosts = std::move(ghosts);
+  }
+
+  const RowTable& rows_;
+  const Buffer<Index>& order_;
+  const Buffer<Index>& place_;
+  Buffer<Index> local_;
+  Buffer<Index> entries_;
+  Buffer<Index> sorted_;
+  Buffer<Index> starts_;
+  Buffer<std::uint16_t> new_place_;
+};
 
 double brauer_bound(const RowTable& rows) {
   const std::vector<RowPattern>& patterns = rows.patterns();
@@ -204,20 +232,24 @@ StepSegment step_for(Index count) {
 
 Tiling make_tiling(const RowTable& rows) {
   Tiling tiling;
-  tiling.free_count = rows.free_count();
   tiling.patterns = rows.patterns();
   tiling.upper_bound = brauer_bound(rows);
   const Index count = tile_count_for(rows.free_count());
-  const Buffer<Index> order = grow_tiles(rows, count);
+  const auto begin_of = [&](std::ptrdiff_t t) { return static_cast<Index>(rows.free_count() * t / count); };
+  tiling.order = grow_tiles(rows, count);
+  Buffer<Index> place(static_cast<std::size_t>(rows.size()), -1);
+  parallel_for_each(count, [&](std::ptrdiff_t t) {
+    std::stable_sort(tiling.order.begin() + begin_of(t), tiling.order.begin() + begin_of(t + 1),
+                     [&](Index a, Index b) { return rows.pattern_of(a) < rows.pattern_of(b); });
+    for (Index i = begin_of(t); i < begin_of(t + 1); ++i) place[tiling.order[i]] = i;
+  });
   tiling.tiles.resize(static_cast<std::size_t>(count));
-  const std::ptrdiff_t groups = std::min<std::ptrdiff_t>(count, thread_count());
   std::vector<std::uint8_t> fits(static_cast<std::size_t>(count), 0);
+  const std::ptrdiff_t groups = std::min<std::ptrdiff_t>(count, thread_count());
   parallel_for_each(groups, [&](std::ptrdiff_t group) {
-    Buffer<Index> local(static_cast<std::size_t>(rows.size()), -1);
+    TileBuilder builder(rows, tiling.order, place);
     for (std::ptrdiff_t t = count * group / groups; t < count * (group + 1) / groups; ++t) {
-      const std::int64_t n = rows.free_count();
-      tiling.tiles[t].globals.assign(order.begin() + n * t / count, order.begin() + n * (t + 1) / count);
-      fits[t] = build_tile(rows, local, tiling.tiles[t]) ? 1 : 0;
+      fits[t] = builder.build(begin_of(t), begin_of(t + 1) - begin_of(t), tiling.tiles[t]) ? 1 : 0;
     }
   });
   if (std::count(fits.begin(), fits.end(), 0) > 0) {
@@ -225,10 +257,11 @@ Tiling make_tiling(const RowTable& rows) {
     tiling.overlap = std::numeric_limits<double>::infinity();
     return tiling;
   }
-  place_held_entries(rows, tiling);
-  double held = 0.0;
-  for (const Tile& tile : tiling.tiles) held += static_cast<double>(tile.globals.size());
-  tiling.overlap = tiling.free_count > 0 ? held / tiling.free_count : 1.0;
+  tiling.held = rows.held();
+  for (HeldEntry& entry : tiling.held) entry.row = place[entry.row];
+  double locals = 0.0;
+  for (const Tile& tile : tiling.tiles) locals += tile.ring_end.back();
+  tiling.overlap = count > 0 ? locals / rows.free_count() : 1.0;
   return tiling;
 }
 

@@ -20,32 +20,26 @@ struct TileSegment {
   Index first_column;
 };
 
-/// Unknowns in the order of their ring (0: the tile's own), and by pattern within a ring.
+/// A patch of unknowns with the rings around it. Local unknown i is, for i < own_count, the unknown first + i in the order of
+/// Tiling, and ghosts[i - own_count] after that; sorted by ring, and by pattern within a ring.
 struct Tile {
-  static constexpr int kRings = TiledIteration::kStepsPerRound;  ///< rings 0 .. kRings - 1
+  static constexpr int kRings = TiledIteration::kStepsPerRound;  ///< rings 0 (the tile's own) .. kRings - 1
 
-  std::array<Index, kRings> ring_end{};         ///< unknowns up to this ring
-  std::array<Index, kRings> segment_end{};      ///< segments up to this ring
-  Buffer<Index> globals;
+  Index first = 0;
+  Index own_count = 0;
+  std::array<Index, kRings> ring_end{};     ///< local unknowns up to this ring
+  std::array<Index, kRings> segment_end{};  ///< segments up to this ring
+  Buffer<Index> ghosts;
   std::vector<TileSegment> segments;
   Buffer<std::uint16_t> columns;
-  Index held_begin = 0;  ///< in Tiling::held
-  Index held_end = 0;
-
-  Index own_count() const { return ring_end[0]; }
 };
 
-struct TileHeldEntry {
-  Index local_row;
-  Index column;
-  double weight;
-};
-
+/// All free unknowns, numbered tile after tile.
 struct Tiling {
   std::vector<Tile> tiles;
-  std::vector<TileHeldEntry> held;
+  Buffer<Index> order;          ///< the row of each unknown
+  std::vector<HeldEntry> held;  ///< with `row` an unknown's place in `order`
   std::vector<RowPattern> patterns;
-  Index free_count = 0;
   double overlap = 0.0;
   double upper_bound = 0.0;
 };
