@@ -20,13 +20,10 @@ double max_row_norm(const Values& values) {
       values.rows(), 0.0,
       [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
         double most = 0.0;
-        for (std::ptrdiff_t i = begin; i < end; ++i) {
-          const double norm = values.row(i).squaredNorm();
-          if (!(norm <= most)) most = norm;  // so that NaN wins
-        }
+        for (std::ptrdiff_t i = begin; i < end; ++i) most = larger_or_nan(most, values.row(i).squaredNorm());
         return most;
       },
-      [](double a, double b) { return !(b <= a) ? b : a; });
+      larger_or_nan);
   return std::sqrt(squared);
 }
 

@@ -40,6 +40,9 @@ struct StopRule {
 /// y = A x, both n-by-k.
 using LinearMap = std::function<void(const Values& x, Values& y)>;
 
+/// The larger of two numbers, and NaN where either is.
+inline double larger_or_nan(double a, double b) { return b > a || b != b ? b : a; }
+
 /// max over the rows of the row's Euclidean length; 0 for no rows. NaN if any number is.
 double max_row_norm(const Values& values);
 

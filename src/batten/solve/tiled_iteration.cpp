@@ -142,8 +142,7 @@ double measure(const Tiling& tiling, const Tile& tile, Columns& columns) {
     for (Index i = segment.first_row; i < segment.first_row + segment.row_count; ++i) {
       const Double4 r = columns.b[tile.first + i] - scratch.product[i];
       const Double4 square = r * r;
-      const double norm = square[0] + square[1] + square[2] + square[3];
-      if (!(norm <= most)) most = norm;  // so that NaN wins
+      most = larger_or_nan(most, square[0] + square[1] + square[2] + square[3]);
       columns.residual[tile.first + i] = __builtin_convertvector(r * inverse, Float4);
     }
   }
@@ -189,7 +188,7 @@ class Rounds {
       const double now = std::sqrt(parallel_reduce(
           tile_count, 0.0,
           [&](std::ptrdiff_t t, std::ptrdiff_t /*end*/) { return measure(tiling_, tiling_.tiles[t], columns); },
-          [](double a, double b) { return !(b <= a) ? b : a; }, 1));
+          larger_or_nan, 1));
       history.push_back(now);
       stop_.report(history.front(), now);
       converged = now <= tolerance;
@@ -198,7 +197,8 @@ class Rounds {
       if (chebyshev && last > 0.0) {
         const double contraction = now / last;
         if (!(contraction < 0.95)) return;
-        lower_ = std::min(lower_, 0.9 * lower_bound_from(contraction, lower_, tiling_.upper_bound));
+        const double found = lower_bound_from(contraction, lower_, tiling_.upper_bound);
+        if (found < 0.95 * lower_) lower_ = 0.9 * found;
         if (lower_ < options_.give_up_below) return;
         steps = steps_needed(tolerance / now, contraction, lower_, tiling_.upper_bound);
       }
