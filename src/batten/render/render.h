@@ -25,7 +25,7 @@ struct Scene {
   Points markers = Points(0, 3);  ///< drawn as small spheres (the targets)
   Mesh lines;                     ///< its edges are drawn as thin tubes (the control mesh)
   Color surface_color{0.60F, 0.335F, 0.140F};
-  Color back_color{0.33F, 0.42F, 0.50F};  ///< of the faces' back sides
+  Color back_color{0.27F, 0.31F, 0.35F};  ///< of the faces' back sides
   Color marker_color{0.018F, 0.040F, 0.115F};
   Color line_color{0.030F, 0.075F, 0.190F};
 };

@@ -1,0 +1,135 @@
+/// The sample models: what the generator makes is sound, and the files in models/ are what it makes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "batten/io/io.h"
+#include "batten/mesh/topology.h"
+#include "mesh/manifold.h"
+
+// The generator is a program of its own; its sources without main are small enough to be part of this test.
+#include "../../models/all_models.cpp"
+#include "../../models/blocks.cpp"
+#include "../../models/field.cpp"
+#include "../../models/pipes.cpp"
+
+namespace batten {
+namespace {
+
+struct Expectation {
+  const char* name;
+  Index boundary_loops;
+  Index euler;  ///< V - E + F: 2 - 2 handles - boundary loops
+  bool quads;
+};
+
+const std::vector<Expectation>& expectations() {
+  static const std::vector<Expectation> list = {{"pipe-joint", 4, -2, true},   {"tripod", 0, 2, true},
+                                                {"torus-knot", 0, 0, true},    {"bracket", 0, -6, true},
+                                                {"creature", 0, 2, true},      {"tetrahedron", 0, 2, false},
+                                                {"cube", 0, 2, true},          {"octahedron", 0, 2, false},
+                                                {"dodecahedron", 0, 2, false}, {"icosahedron", 0, 2, false}};
+  return list;
+}
+
+const std::vector<models::Model>& made() {
+  static const std::vector<models::Model> list = models::all_models();
+  return list;
+}
+
+TEST(Models, AreOrientedManifoldsOfTheIntendedShape) {
+  ASSERT_EQ(made().size(), expectations().size());
+  for (std::size_t i = 0; i < made().size(); ++i) {
+    const Mesh& mesh = made()[i].mesh;
+    const Expectation& expected = expectations()[i];
+    EXPECT_EQ(made()[i].name, expected.name);
+    const test::ManifoldReport report = test::examine(mesh);
+    ASSERT_TRUE(report.valid) << expected.name << ": " << report.reason;
+    EXPECT_EQ(report.boundary_loop_count, expected.boundary_loops) << expected.name;
+    EXPECT_EQ(report.component_count, 1) << expected.name;
+    EXPECT_EQ(report.euler, expected.euler) << expected.name;
+    EXPECT_GT(report.volume, 0.0) << expected.name;
+    if (expected.quads) {
+      for (Index f = 0; f < mesh.face_count(); ++f) EXPECT_EQ(mesh.face_size(f), 4) << expected.name;
+    }
+    EXPECT_NO_THROW(Topology{mesh}) << expected.name;
+  }
+}
+
+TEST(Models, HaveNoTinyAndNoHugeEdges) {
+  for (const models::Model& model : made()) {
+    double shortest = std::numeric_limits<double>::infinity();
+    double longest = 0.0;
+    for (Index f = 0; f < model.mesh.face_count(); ++f) {
+      const Index size = model.mesh.face_size(f);
+      for (Index c = 0; c < size; ++c) {
+        const Index a = model.mesh.face_vertices[model.mesh.face_offsets[f] + c];
+        const Index b = model.mesh.face_vertices[model.mesh.face_offsets[f] + (c + 1) % size];
+        const double length = (model.mesh.points.row(a) - model.mesh.points.row(b)).norm();
+        shortest = std::min(shortest, length);
+        longest = std::max(longest, length);
+      }
+    }
+    EXPECT_LT(longest, 5.0 * shortest) << model.name << ": " << shortest << " to " << longest;
+  }
+}
+
+const Mesh& model(const std::string& name) {
+  const auto at = std::find_if(made().begin(), made().end(), [&](const models::Model& m) { return m.name == name; });
+  return at->mesh;
+}
+
+TEST(Models, PipesAreRound) {
+  const Mesh& mesh = model("pipe-joint");
+  Index on_circles = 0;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const Eigen::RowVector3d p = mesh.points.row(v);
+    const double reach = std::max(std::abs(p.x()), std::abs(p.y()));
+    if (reach < 2.2) continue;
+    ++on_circles;
+    const double side = std::abs(p.x()) > std::abs(p.y()) ? p.y() : p.x();
+    EXPECT_NEAR(std::hypot(side, p.z()), 1.0, 1e-4);
+  }
+  EXPECT_GT(on_circles, 100);
+}
+
+TEST(Models, BracketHasSharpAndSemiSharpCreases) {
+  const Mesh& mesh = model("bracket");
+  const auto count = [&](double sharpness) {
+    return std::count_if(mesh.creases.begin(), mesh.creases.end(),
+                         [&](const Crease& c) { return c.sharpness == sharpness; });
+  };
+  EXPECT_GT(count(10.0), 100);
+  EXPECT_GT(count(2.5), 10);
+  EXPECT_EQ(count(10.0) + count(2.5), static_cast<std::ptrdiff_t>(mesh.creases.size()));
+}
+
+TEST(Models, CreatureIsMirrored) {
+  const Mesh& mesh = model("creature");
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const Eigen::RowVector3d twin(-mesh.points(v, 0), mesh.points(v, 1), mesh.points(v, 2));
+    EXPECT_LT((mesh.points.rowwise() - twin).rowwise().norm().minCoeff(), 1e-9);
+  }
+}
+
+TEST(Models, FilesAreWhatTheGeneratorMakes) {
+  for (const models::Model& expected : made()) {
+    const Mesh file = read_mesh(std::string(BATTEN_SOURCE_DIR) + "/models/" + expected.name + ".obj");
+    ASSERT_EQ(file.vertex_count(), expected.mesh.vertex_count()) << expected.name;
+    // A sine's last bit may round to the next grain on another machine.
+    EXPECT_LT((file.points - expected.mesh.points).cwiseAbs().maxCoeff(), 2e-4) << expected.name;
+    EXPECT_EQ(file.face_offsets, expected.mesh.face_offsets) << expected.name;
+    EXPECT_EQ(file.face_vertices, expected.mesh.face_vertices) << expected.name;
+    ASSERT_EQ(file.creases.size(), expected.mesh.creases.size()) << expected.name;
+    for (std::size_t i = 0; i < file.creases.size(); ++i) {
+      EXPECT_EQ(file.creases[i].a, expected.mesh.creases[i].a);
+      EXPECT_EQ(file.creases[i].b, expected.mesh.creases[i].b);
+      EXPECT_EQ(file.creases[i].sharpness, expected.mesh.creases[i].sharpness);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace batten
