@@ -193,6 +193,12 @@ TEST(PlyWriter, DoublesSurviveInBytesAndInText) {
   for (const bool binary : {true, false}) expect_same_mesh(mesh, round_trip(mesh, "ply", binary));
 }
 
+TEST(PlyWriter, AMeshWithoutVerticesSurvives) {
+  Mesh empty;
+  empty.attributes.push_back({"normal", Values(0, 3), {}});
+  for (const bool binary : {true, false}) expect_same_mesh(empty, round_trip(empty, "ply", binary));
+}
+
 TEST(PlyWriter, ColoursThatCameAsBytesGoAsBytes) {
   Mesh mesh = random_mesh(256, 0);
   mesh.attributes.push_back({"color", Values(256, 3), {}});

@@ -131,7 +131,7 @@ class BinaryReader {
         with_type(element.properties[p].type, [&](auto type) {
           for (std::ptrdiff_t row = begin; row < end; ++row) {
             const auto value = load<decltype(type), Order>(base + row_bytes * static_cast<std::size_t>(row));
-            column.first[column.stride * row] = static_cast<double>(value) / column.divisor;
+            column.values[column.stride * row + column.offset] = static_cast<double>(value) / column.divisor;
           }
         });
         offset += byte_size(element.properties[p].type);

@@ -93,13 +93,14 @@ void allocate_ply_vertices(PlyTargets& targets, Mesh& mesh) {
   const PlyElement& element = *targets.element;
   const auto rows = static_cast<Eigen::Index>(element.count);
   std::vector<bool> taken(element.properties.size(), false);
-  const auto place = [&](std::ptrdiff_t property, double* first, std::ptrdiff_t stride, double by) {
-    targets.columns[property] = {first, stride, by};
+  const auto place = [&](std::ptrdiff_t property, double* values, std::ptrdiff_t offset, std::ptrdiff_t stride,
+                         double by) {
+    targets.columns[property] = {values, offset, stride, by};
     taken[property] = true;
   };
   mesh.points.resize(rows, 3);
   const char* const coordinates[] = {"x", "y", "z"};
-  for (int k = 0; k < 3; ++k) place(find_scalar(element, coordinates[k]), mesh.points.data() + k, 3, 1.0);
+  for (int k = 0; k < 3; ++k) place(find_scalar(element, coordinates[k]), mesh.points.data(), k, 3, 1.0);
   for (const Family& family : families()) {
     std::vector<std::ptrdiff_t> found;
     for (const std::string& property : family.properties) found.push_back(find_scalar(element, property));
@@ -111,13 +112,13 @@ void allocate_ply_vertices(PlyTargets& targets, Mesh& mesh) {
     mesh.attributes.push_back({family.attribute, Values(rows, columns), {}});
     double* values = mesh.attributes.back().values.data();
     for (std::size_t k = 0; k < found.size(); ++k) {
-      place(found[k], values + k, columns, divisor(family, element.properties[found[k]]));
+      place(found[k], values, static_cast<std::ptrdiff_t>(k), columns, divisor(family, element.properties[found[k]]));
     }
   }
   for (std::size_t p = 0; p < element.properties.size(); ++p) {
     if (taken[p] || element.properties[p].is_list()) continue;
     mesh.attributes.push_back({element.properties[p].name, Values(rows, 1), {}});
-    place(static_cast<std::ptrdiff_t>(p), mesh.attributes.back().values.data(), 1, 1.0);
+    place(static_cast<std::ptrdiff_t>(p), mesh.attributes.back().values.data(), 0, 1, 1.0);
   }
 }
 

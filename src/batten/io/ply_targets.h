@@ -9,9 +9,10 @@
 
 namespace batten::io {
 
-/// The value of row i goes to first[stride * i], divided by `divisor`; nowhere when first is null.
+/// The value of row i goes to values[stride * i + offset], divided by `divisor`; nowhere when values is null.
 struct PlyColumn {
-  double* first = nullptr;
+  double* values = nullptr;
+  std::ptrdiff_t offset = 0;
   std::ptrdiff_t stride = 0;
   double divisor = 1.0;
 };
@@ -43,7 +44,7 @@ void read_ply_row(RowValues& values, const PlyTargets& targets, std::ptrdiff_t r
     if (!property.is_list()) {
       const PlyColumn& column = targets.columns[i];
       const double value = values.scalar(property);
-      if (column.first != nullptr) column.first[column.stride * row] = value / column.divisor;
+      if (column.values != nullptr) column.values[column.stride * row + column.offset] = value / column.divisor;
       continue;
     }
     const std::int64_t count = values.integer(*property.count_type, "list size");

@@ -15,11 +15,12 @@ enum class ColumnType { Double, Uchar };
 
 struct Column {
   std::string name;
-  const double* first;
+  const double* values;
+  std::ptrdiff_t offset;
   std::ptrdiff_t stride;
   ColumnType type;
 
-  double value(std::ptrdiff_t row) const { return first[stride * row]; }
+  double value(std::ptrdiff_t row) const { return values[stride * row + offset]; }
   std::uint8_t byte(std::ptrdiff_t row) const { return static_cast<std::uint8_t>(std::lround(255.0 * value(row))); }
 };
 
@@ -56,14 +57,15 @@ std::vector<std::string> property_names(const Attribute& attribute) {
 std::vector<Column> find_columns(const std::string& file_name, const Mesh& mesh) {
   std::vector<Column> columns;
   const char* const coordinates[] = {"x", "y", "z"};
-  for (int k = 0; k < 3; ++k) columns.push_back({coordinates[k], mesh.points.data() + k, 3, ColumnType::Double});
+  for (int k = 0; k < 3; ++k) columns.push_back({coordinates[k], mesh.points.data(), k, 3, ColumnType::Double});
   for (const Attribute& attribute : mesh.attributes) {
     if (attribute.per_corner()) continue;
     const std::vector<std::string> names = property_names(attribute);
     const bool bytes = attribute.name == "color" && holds_bytes(attribute.values);
     for (std::size_t k = 0; k < names.size(); ++k) {
       const ColumnType type = bytes ? ColumnType::Uchar : ColumnType::Double;
-      columns.push_back({names[k], attribute.values.data() + k, attribute.values.cols(), type});
+      columns.push_back(
+          {names[k], attribute.values.data(), static_cast<std::ptrdiff_t>(k), attribute.values.cols(), type});
     }
   }
   std::set<std::string> names;

@@ -43,7 +43,8 @@ struct Checker {
     if (offsets.empty() || offsets[0] != 0 || static_cast<std::size_t>(offsets.back()) != mesh.face_vertices.size()) {
       fail(ErrorCode::BadShape, "face_offsets must begin with 0 and end with the size of face_vertices");
     }
-    const auto small = find(mesh.face_count(), [&](std::ptrdiff_t f) { return offsets[f + 1] - offsets[f] < 3; });
+    const auto small =
+        find(mesh.face_count(), [&](std::ptrdiff_t f) { return std::int64_t{offsets[f + 1]} - offsets[f] < 3; });
     if (small >= 0) {
       fail(ErrorCode::DegenerateFace, "face " + std::to_string(small) + " has fewer than three corners; remove it");
     }
