@@ -12,7 +12,7 @@ namespace batten::cli {
 struct CommonArguments {
   std::string input;
   std::string output;
-  std::string input_format;   ///< for stdin, or to overrule the extension
+  std::string input_format;  ///< for stdin, or to overrule the extension
   std::string output_format;
   std::string report;
   std::string picture;
@@ -45,9 +45,9 @@ struct RenderArguments {
   int height = 1200;
   int samples = 2;
   std::optional<std::array<double, 3>> view;
-  bool flat = false;       ///< draw the mesh itself, not its subdivision surface
-  bool control = false;    ///< draw the control mesh as lines
-  bool points = false;     ///< draw the vertices' limit positions as small spheres
+  bool flat = false;     ///< draw the mesh itself, not its subdivision surface
+  bool control = false;  ///< draw the control mesh as lines
+  bool points = false;   ///< draw the vertices' limit positions as small spheres
 };
 
 int run_info(const CommonArguments& arguments);

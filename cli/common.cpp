@@ -66,7 +66,8 @@ Progress ProgressBar::callback() {
 void ProgressBar::draw(double done) {
   constexpr int kWidth = 30;
   const int filled = std::clamp(static_cast<int>(done * kWidth), 0, kWidth);
-  fmt::print(stderr, "\r{} [{}{}] {:3.0f} %", label_, std::string(filled, '#'), std::string(kWidth - filled, '.'), 100.0 * done);
+  fmt::print(stderr, "\r{} [{}{}] {:3.0f} %", label_, std::string(filled, '#'), std::string(kWidth - filled, '.'),
+             100.0 * done);
   std::fflush(stderr);
   drawn_ = true;
 }
@@ -119,10 +120,11 @@ Index isolated_count(const Topology& topology) {
 }
 
 std::string mesh_text(const Topology& topology) {
-  std::string text = count_of(topology.vertex_count(), "vertex", "vertices") + ", " +
-                     count_of(topology.face_count(), "face", "faces");
+  std::string text =
+      count_of(topology.vertex_count(), "vertex", "vertices") + ", " + count_of(topology.face_count(), "face", "faces");
   const Index isolated = isolated_count(topology);
-  if (isolated > 0) text += fmt::format(" ({} without a face, passed through)", count_of(isolated, "vertex", "vertices"));
+  if (isolated > 0)
+    text += fmt::format(" ({} without a face, passed through)", count_of(isolated, "vertex", "vertices"));
   return text;
 }
 

@@ -87,7 +87,8 @@ int run_info(const CommonArguments& arguments) {
     return crease.sharpness > 0.0 && crease.sharpness < kInfiniteSharpness;
   });
   if (!mesh.creases.empty()) {
-    table.add("creases", fmt::format("{} ({} semi-sharp)", grouped(static_cast<std::int64_t>(mesh.creases.size())), grouped(semi_sharp)));
+    table.add("creases", fmt::format("{} ({} semi-sharp)", grouped(static_cast<std::int64_t>(mesh.creases.size())),
+                                     grouped(semi_sharp)));
   }
   if (!mesh.corners.empty()) table.add("corners", grouped(static_cast<std::int64_t>(mesh.corners.size())));
   if (!mesh.holes.empty()) table.add("holes", grouped(static_cast<std::int64_t>(mesh.holes.size())));

@@ -20,7 +20,8 @@ Mesh control_mesh(Mesh mesh, const Topology& topology, const Scheme& scheme, con
   return control;
 }
 
-/// Colours and other numbers at the vertices are interpolated too; normals of the input are not those of control points.
+/// Colours and other numbers at the vertices are interpolated too; normals of the input are not those of control
+/// points.
 void interpolate_attributes(Mesh& mesh, const Interpolator& interpolator) {
   std::erase_if(mesh.attributes, [](const Attribute& attribute) { return attribute.name == "normal"; });
   for (Attribute& attribute : mesh.attributes) {
@@ -40,15 +41,18 @@ void add_error_rows(Table& table, const Interpolant& result, double diagonal) {
 std::string singular_text(const Interpolant& result, OnSingular choice) {
   const std::string name = count_of(result.singular_components, "component has", "components have");
   if (!result.vertex_alpha.empty()) {
-    return name + " no surface through arbitrary points (all valences 3, two-colourable): alpha = 1/2 there, and the result is "
-                  "written refined once";
+    return name +
+           " no surface through arbitrary points (all valences 3, two-colourable): alpha = 1/2 there, and the result "
+           "is "
+           "written refined once";
   }
   if (choice == OnSingular::LeastSquares) return name + " a singular system; solved in the least-squares sense";
   return name + " a singular system, but these points have a surface";
 }
 
-nlohmann::ordered_json report_json(const InterpolateArguments& arguments, const Topology& topology, const Scheme& scheme,
-                                   const Interpolant& result, double diagonal, const Stages& stages) {
+nlohmann::ordered_json report_json(const InterpolateArguments& arguments, const Topology& topology,
+                                   const Scheme& scheme, const Interpolant& result, double diagonal,
+                                   const Stages& stages) {
   nlohmann::ordered_json worst = nlohmann::ordered_json::array();
   for (const VertexError& entry : result.worst) worst.push_back({{"vertex", entry.vertex}, {"error", entry.error}});
   return {{"verb", "interpolate"},
@@ -116,11 +120,14 @@ int run_interpolate(const InterpolateArguments& arguments) {
   table.add("time", stages.text());
   table.print(common);
   write_json(common.report, report_json(arguments, topology, scheme, result, diagonal, stages));
-  const bool least_squares = result.singular_components > 0 && arguments.options.on_singular == OnSingular::LeastSquares;
+  const bool least_squares =
+      result.singular_components > 0 && arguments.options.on_singular == OnSingular::LeastSquares;
   if (!result.report.converged && !least_squares) {
-    throw Error(ErrorCode::NotConverged,
-                fmt::format("the tolerance {:g} was not reached in {} iterations; what was reached is written (try --method auto)",
-                            arguments.options.tolerance, result.report.iterations));
+    throw Error(
+        ErrorCode::NotConverged,
+        fmt::format(
+            "the tolerance {:g} was not reached in {} iterations; what was reached is written (try --method auto)",
+            arguments.options.tolerance, result.report.iterations));
   }
   return 0;
 }

@@ -31,10 +31,12 @@ const Names<LimitMasks> kMasks{{"exact", LimitMasks::Exact}, {"opensubdiv", Limi
 
 /// An option whose words stand for an enumerator; the help lists the words.
 template <typename Enum, typename Target>
-void add_choice(CLI::App& verb, const std::string& name, Target& target, const Names<Enum>& names, const std::string& help) {
+void add_choice(CLI::App& verb, const std::string& name, Target& target, const Names<Enum>& names,
+                const std::string& help) {
   std::string words;
   for (const auto& entry : names) words += (words.empty() ? "" : "|") + entry.first;
-  verb.add_option_function<std::string>(name, [&target, names](const std::string& word) { target = names.at(word); }, help)
+  verb.add_option_function<std::string>(
+          name, [&target, names](const std::string& word) { target = names.at(word); }, help)
       ->check(CLI::IsMember(names))
       ->option_text(words);
 }
@@ -47,7 +49,8 @@ void add_input(CLI::App& verb, CommonArguments& common) {
       ->check(CLI::NonNegativeNumber)
       ->option_text("N");
   verb.add_flag("--quiet,-q", common.quiet, "print errors only");
-  verb.add_option("--report", common.report, "write everything that was measured, for a program")->option_text("FILE.json");
+  verb.add_option("--report", common.report, "write everything that was measured, for a program")
+      ->option_text("FILE.json");
 }
 
 void add_output(CLI::App& verb, CommonArguments& common) {
@@ -59,10 +62,13 @@ void add_output(CLI::App& verb, CommonArguments& common) {
 }
 
 void add_surface(CLI::App& verb, CommonArguments& common) {
-  add_choice(verb, "--scheme", common.scheme, kSchemes, "Loop for triangles and Catmull-Clark for anything else, if not given");
-  add_choice(verb, "--boundary", common.boundary, kBoundaries, "what the surface does at a boundary; overrules the file");
+  add_choice(verb, "--scheme", common.scheme, kSchemes,
+             "Loop for triangles and Catmull-Clark for anything else, if not given");
+  add_choice(verb, "--boundary", common.boundary, kBoundaries,
+             "what the surface does at a boundary; overrules the file");
   add_choice(verb, "--creases", common.crease_method, kCreases, "how semi-sharp creases fade; overrules the file");
-  add_choice(verb, "--triangles", common.triangle_rule, kTriangles, "Catmull-Clark's weights at triangles; overrules the file");
+  add_choice(verb, "--triangles", common.triangle_rule, kTriangles,
+             "Catmull-Clark's weights at triangles; overrules the file");
   verb.add_option("--alpha", common.alpha, "Lai and Cheng's alpha in the first step (Catmull-Clark)")
       ->check(CLI::Range(0.0, 1.0))
       ->option_text("0..1");
@@ -82,7 +88,8 @@ struct Verbs {
 };
 
 void add_interpolate(CLI::App& app, InterpolateArguments& arguments, int& status) {
-  CLI::App& verb = *app.add_subcommand("interpolate", "the control mesh whose limit surface passes through the vertices");
+  CLI::App& verb =
+      *app.add_subcommand("interpolate", "the control mesh whose limit surface passes through the vertices");
   add_input(verb, arguments.common);
   add_output(verb, arguments.common);
   add_surface(verb, arguments.common);
@@ -96,7 +103,8 @@ void add_interpolate(CLI::App& app, InterpolateArguments& arguments, int& status
   verb.add_option("--max-iterations", options.max_iterations, "give up after so many")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  add_choice(verb, "--on-singular", options.on_singular, kOnSingular, "where no surface passes through such points; alpha if not given");
+  add_choice(verb, "--on-singular", options.on_singular, kOnSingular,
+             "where no surface passes through such points; alpha if not given");
   add_choice(verb, "--limit-masks", options.masks, kMasks, "exact at darts and valence 2, or OpenSubdiv's masks there");
   verb.callback([&] { status = run_interpolate(arguments); });
 }
@@ -116,12 +124,16 @@ void add_render(CLI::App& app, RenderArguments& arguments, int& status) {
   add_input(verb, arguments.common);
   verb.add_option("-o,--output", arguments.common.output, "picture to write")->required()->option_text("FILE.png");
   add_surface(verb, arguments.common);
-  verb.add_option("--levels", arguments.levels, "refinement; as many as make it smooth, if not given")->check(CLI::Range(0, 12));
+  verb.add_option("--levels", arguments.levels, "refinement; as many as make it smooth, if not given")
+      ->check(CLI::Range(0, 12));
   verb.add_option("--width", arguments.width, "pixels")->check(CLI::Range(1, 16384))->capture_default_str();
   verb.add_option("--height", arguments.height, "pixels")->check(CLI::Range(1, 16384))->capture_default_str();
-  verb.add_option("--samples", arguments.samples, "per pixel and axis")->check(CLI::Range(1, 16))->capture_default_str();
+  verb.add_option("--samples", arguments.samples, "per pixel and axis")
+      ->check(CLI::Range(1, 16))
+      ->capture_default_str();
   verb.add_option_function<std::array<double, 3>>(
-          "--view", [&](const std::array<double, 3>& view) { arguments.view = view; }, "direction from the object to the eye")
+          "--view", [&](const std::array<double, 3>& view) { arguments.view = view; },
+          "direction from the object to the eye")
       ->option_text("X Y Z");
   verb.add_flag("--flat", arguments.flat, "draw the mesh as it is");
   verb.add_flag("--control", arguments.control, "with the control mesh as lines");

@@ -28,11 +28,13 @@ int run_render(const RenderArguments& arguments) {
        {common.output, arguments.width, arguments.height, arguments.samples, arguments.view, common.quiet});
   stages.finish("picture");
   Table table;
-  table.add("mesh", count_of(mesh.vertex_count(), "vertex", "vertices") + ", " + count_of(mesh.face_count(), "face", "faces"));
+  table.add("mesh",
+            count_of(mesh.vertex_count(), "vertex", "vertices") + ", " + count_of(mesh.face_count(), "face", "faces"));
   table.add("drawn", shown);
   table.add("time", stages.text());
   table.print(common);
-  write_json(common.report, {{"verb", "render"}, {"input", common.input}, {"output", common.output}, {"seconds", stages.json()}});
+  write_json(common.report,
+             {{"verb", "render"}, {"input", common.input}, {"output", common.output}, {"seconds", stages.json()}});
   return 0;
 }
 

@@ -22,7 +22,8 @@ int run_subdivide(const SubdivideArguments& arguments) {
   if (surface.topology.has_creases()) refined.crease_method = scheme.crease_method;
   for (const Attribute& attribute : mesh.attributes) {
     if (attribute.per_corner() || attribute.name == "normal") continue;
-    refined.attributes.push_back({attribute.name, refine(topology, scheme, attribute.values, arguments.levels).values, {}});
+    refined.attributes.push_back(
+        {attribute.name, refine(topology, scheme, attribute.values, arguments.levels).values, {}});
   }
   if (arguments.limit) {
     refined.points = LimitMatrix(surface.topology, last).apply(surface.values);
@@ -36,8 +37,8 @@ int run_subdivide(const SubdivideArguments& arguments) {
   Table table;
   table.add("mesh", mesh_text(topology));
   table.add("scheme", scheme_text(scheme));
-  table.add("refined", fmt::format("{} to {}{}", count_of(arguments.levels, "level", "levels"), mesh_text(surface.topology),
-                                   arguments.limit ? ", on the limit surface" : ""));
+  table.add("refined", fmt::format("{} to {}{}", count_of(arguments.levels, "level", "levels"),
+                                   mesh_text(surface.topology), arguments.limit ? ", on the limit surface" : ""));
   table.add("time", stages.text());
   table.print(common);
   write_json(common.report, {{"verb", "subdivide"},

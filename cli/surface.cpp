@@ -68,7 +68,8 @@ void draw(const Mesh& surface, const Points& markers, const Mesh& lines, const P
 
 #else
 
-void draw(const Mesh& /*surface*/, const Points& /*markers*/, const Mesh& /*lines*/, const PictureRequest& /*request*/) {
+void draw(const Mesh& /*surface*/, const Points& /*markers*/, const Mesh& /*lines*/,
+          const PictureRequest& /*request*/) {
   throw Error(ErrorCode::NotAvailable, "this build has no pictures; configure with BATTEN_WITH_RENDER=ON");
 }
 

@@ -63,7 +63,8 @@ TEST(Arrows, TheLibraryNeverPrints) {
   for (const auto& entry : fs::recursive_directory_iterator(library)) {
     if (!entry.is_regular_file()) continue;
     std::ifstream file(entry.path());
-    for (std::string line; std::getline(file, line);) EXPECT_FALSE(std::regex_search(line, print)) << entry.path() << ": " << line;
+    for (std::string line; std::getline(file, line);)
+      EXPECT_FALSE(std::regex_search(line, print)) << entry.path() << ": " << line;
   }
 }
 

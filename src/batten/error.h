@@ -22,11 +22,11 @@ enum class ErrorCode {
   NotConverged,       ///< the iteration cap came before the tolerance
   FileNotReadable,
   FileNotWritable,
-  BadFile,            ///< the text or the bytes are not what the format asks for
-  UnknownFormat,      ///< a file name extension that no reader or writer knows
-  TooLarge,           ///< more elements than a 32-bit index can count
-  Cancelled,          ///< the progress callback asked to stop
-  NotAvailable        ///< an optional part that this build lacks
+  BadFile,        ///< the text or the bytes are not what the format asks for
+  UnknownFormat,  ///< a file name extension that no reader or writer knows
+  TooLarge,       ///< more elements than a 32-bit index can count
+  Cancelled,      ///< the progress callback asked to stop
+  NotAvailable    ///< an optional part that this build lacks
 };
 
 class Error : public std::runtime_error {

@@ -17,9 +17,9 @@ using ValuesRef = Eigen::Ref<Values, 0, Eigen::OuterStride<>>;
 
 /// What the surface does at a boundary (OpenSubdiv's names).
 enum class BoundaryRule {
-  None,          ///< faces at the boundary are not part of the surface; they only shape it
-  EdgeAndCorner, ///< boundary curves, and vertices of a single face stay where they are
-  EdgeOnly       ///< boundary curves, smooth at vertices of a single face too
+  None,           ///< faces at the boundary are not part of the surface; they only shape it
+  EdgeAndCorner,  ///< boundary curves, and vertices of a single face stay where they are
+  EdgeOnly        ///< boundary curves, smooth at vertices of a single face too
 };
 
 /// How semi-sharp sharpness decays from level to level.
@@ -31,7 +31,8 @@ enum class TriangleRule { Catmark, Smooth };
 /// A sharpness of 10 or more is infinite, as in OpenSubdiv.
 inline constexpr float kInfiniteSharpness = 10.0F;
 
-/// Called now and then with the done fraction in [0, 1]; return false to cancel (the operation throws Error(Cancelled)).
+/// Called now and then with the done fraction in [0, 1]; return false to cancel (the operation throws
+/// Error(Cancelled)).
 using Progress = std::function<bool(double)>;
 
 }  // namespace batten

@@ -37,7 +37,9 @@ Mesh shaken(Mesh mesh, double amount) {
   return mesh;
 }
 
-double error_of(const Mesh& mesh, const Interpolant& result) { return result.max_error / bounding_diagonal(mesh.points); }
+double error_of(const Mesh& mesh, const Interpolant& result) {
+  return result.max_error / bounding_diagonal(mesh.points);
+}
 
 TEST(Interpolator, PassesThroughANoisyTorus) {
   const Mesh mesh = shaken(torus(60, 40), 0.02);
@@ -51,7 +53,8 @@ TEST(Interpolator, PassesThroughTheRegularSolidsByBothSchemes) {
   }
 }
 
-/// Closed form: on the tetrahedron the Loop limit shrinks every vertex by 5, Catmull-Clark's by 9/2 (data/reference.json).
+/// Closed form: on the tetrahedron the Loop limit shrinks every vertex by 5, Catmull-Clark's by 9/2
+/// (data/reference.json).
 TEST(Interpolator, ScalesTheTetrahedronByTheInverseOfItsLimit) {
   const Mesh mesh = tetrahedron();
   EXPECT_LT((solve(mesh, kLoop).control - 5.0 * mesh.points).cwiseAbs().maxCoeff(), 1e-9);
@@ -74,7 +77,8 @@ TEST(Interpolator, KeepsCornersUnderEdgeAndCorner) {
 
 TEST(Interpolator, PassesThroughCreasesCornersAndDarts) {
   Mesh mesh = shaken(torus(24, 16), 0.02);
-  for (Index i = 0; i < 24; ++i) mesh.creases.push_back({mesh.face_vertices[4 * 16 * i], mesh.face_vertices[4 * 16 * i + 1], 10.0});
+  for (Index i = 0; i < 24; ++i)
+    mesh.creases.push_back({mesh.face_vertices[4 * 16 * i], mesh.face_vertices[4 * 16 * i + 1], 10.0});
   mesh.creases.push_back({mesh.face_vertices[4 * 5 + 1], mesh.face_vertices[4 * 5 + 2], 10.0});  // a dart at each end
   mesh.corners.push_back({mesh.face_vertices[4 * 9 + 2], 10.0});
   EXPECT_LE(error_of(mesh, solve(mesh, kQuads)), 1e-10);
@@ -101,7 +105,8 @@ TEST(Interpolator, RefinementConvergesToTheTargets) {
   const RefinedSurface refined = refine(topology, kQuads, result.control, 5);
   const double miss = (refined.values.topRows(mesh.vertex_count()) - mesh.points).rowwise().norm().maxCoeff();
   const double start = (result.control - mesh.points).rowwise().norm().maxCoeff();
-  EXPECT_LT(miss, start * std::pow(0.45, 5));  // the slowest rate towards the limit is about 1/4 at valence 4, 0.41 at a dart
+  EXPECT_LT(miss,
+            start * std::pow(0.45, 5));  // the slowest rate towards the limit is about 1/4 at valence 4, 0.41 at a dart
 }
 
 TEST(Interpolator, CarriesOtherColumnsAlong) {
@@ -146,7 +151,8 @@ TEST(Interpolator, CommutesWithAffineMaps) {
   Mesh mapped = mesh;
   mapped.points = (mesh.points * linear).rowwise() + Eigen::RowVector3d(5, -7, 9);
   const Values direct = solve(mapped, kQuads, {SolveMethod::Direct}).control;
-  const Values image = (solve(mesh, kQuads, {SolveMethod::Direct}).control * linear).rowwise() + Eigen::RowVector3d(5, -7, 9);
+  const Values image =
+      (solve(mesh, kQuads, {SolveMethod::Direct}).control * linear).rowwise() + Eigen::RowVector3d(5, -7, 9);
   EXPECT_LT((direct - image).cwiseAbs().maxCoeff(), 1e-12);
 }
 

@@ -76,7 +76,8 @@ TEST(Singular, RefusalNamesTheComponent) {
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::SingularSystem);
-    EXPECT_NE(std::string(error.what()).find("the component of vertex 0 (8 vertices)"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("the component of vertex 0 (8 vertices)"), std::string::npos)
+        << error.what();
   }
 }
 

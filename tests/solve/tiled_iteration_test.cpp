@@ -11,8 +11,8 @@
 namespace batten {
 namespace {
 
-/// The tensor product of two cyclic (1, 4, 1)/6 matrices on an n-by-n torus: the limit matrix of a regular quad mesh. Rows in
-/// `held` keep their values. D^-1 A has the spectrum [1/4, 9/4] (MATH 3).
+/// The tensor product of two cyclic (1, 4, 1)/6 matrices on an n-by-n torus: the limit matrix of a regular quad mesh.
+/// Rows in `held` keep their values. D^-1 A has the spectrum [1/4, 9/4] (MATH 3).
 class TorusRows : public RowSource {
  public:
   explicit TorusRows(Index n, Index held = 0) : n_(n), held_(held) {}
@@ -34,7 +34,8 @@ class TorusRows : public RowSource {
     for (Index r = 0; r < size(); ++r) {
       entries.clear();
       row(r, entries);
-      for (std::size_t k = 0; k < entries.columns.size(); ++k) y.row(r) += entries.weights[k] * x.row(entries.columns[k]);
+      for (std::size_t k = 0; k < entries.columns.size(); ++k)
+        y.row(r) += entries.weights[k] * x.row(entries.columns[k]);
     }
     return y;
   }
@@ -93,7 +94,8 @@ TEST(TiledIteration, IsTheGlobalIterationStepByStep) {
   Values tiled = b;
   TiledIteration(rows).solve(b, tiled, options_of(SolveMethod::Jacobi), {0.0, TiledIteration::kStepsPerRound, {}});
   Values plain = b;
-  for (int step = 0; step < TiledIteration::kStepsPerRound; ++step) plain += 0.5 * (9.0 / 4.0) * (b - rows.times(plain));
+  for (int step = 0; step < TiledIteration::kStepsPerRound; ++step)
+    plain += 0.5 * (9.0 / 4.0) * (b - rows.times(plain));
   EXPECT_LT((tiled - plain).cwiseAbs().maxCoeff(), 2e-6);  // the round's correction is a float
 }
 
@@ -102,7 +104,8 @@ double measured_factor(SolveMethod method, double lower_bound) {
   const Index n = 64;
   const TorusRows rows(n);
   Values b(rows.size(), 1);
-  for (Index i = 0; i < rows.size(); ++i) b(i, 0) = (i / n + i % n) % 2 == 0 ? 1.0 : -1.0;  // the mode of eigenvalue 1/9
+  for (Index i = 0; i < rows.size(); ++i)
+    b(i, 0) = (i / n + i % n) % 2 == 0 ? 1.0 : -1.0;  // the mode of eigenvalue 1/9
   Values x = Values::Zero(rows.size(), 1);
   IterationOptions options = options_of(method);
   options.lower_bound = lower_bound;

@@ -6,8 +6,8 @@ namespace batten {
 
 namespace {
 
-/// Follows the curve from `from` through `to` and on, appending Curve rows; returns the first other row met, or -1 when the
-/// walk came back to `start`.
+/// Follows the curve from `from` through `to` and on, appending Curve rows; returns the first other row met, or -1 when
+/// the walk came back to `start`.
 Index follow(const LimitMatrix& matrix, Index start, Index from, Index to, Buffer<std::uint8_t>& seen,
              Buffer<Index>& vertices) {
   while (matrix.row_kind(to) == LimitRow::Curve) {

@@ -22,12 +22,12 @@ class FreeBlock : public RowSource {
   /// Sum over the free rows of their number of entries.
   double entry_count() const;
 
-  /// Conjugate gradients where symmetric, else stabilised bi-conjugate gradients; falls back from the first to the second
-  /// where the block turns out indefinite, and from that to the direct solver.
+  /// Conjugate gradients where symmetric, else stabilised bi-conjugate gradients; falls back from the first to the
+  /// second where the block turns out indefinite, and from that to the direct solver.
   SolveReport solve_krylov(ConstValuesRef targets, Values& x, const StopRule& stop) const;
 
-  /// Sparse Cholesky where symmetric and definite, else LU; one step of iterative refinement. Memory grows with the fill.
-  /// Throws Error(SingularSystem).
+  /// Sparse Cholesky where symmetric and definite, else LU; one step of iterative refinement. Memory grows with the
+  /// fill. Throws Error(SingularSystem).
   SolveReport solve_direct(ConstValuesRef targets, Values& x, const StopRule& stop) const;
 
  private:

@@ -152,7 +152,8 @@ struct Interpolator::Parts {
     return sum / static_cast<double>(component.vertices.size());
   }
 
-  /// One component after the other; all are small in practice, and conjugate gradients keep to the complement of the null vector.
+  /// One component after the other; all are small in practice, and conjugate gradients keep to the complement of the
+  /// null vector.
   void solve_singular(ConstValuesRef targets, const StopRule& stop, Interpolant& result) const {
     Values aims = targets;
     Buffer<std::uint8_t> plain(static_cast<std::size_t>(topology.vertex_count()), 0);
@@ -162,10 +163,11 @@ struct Interpolator::Parts {
       bool alpha = false;
       if (missed.norm() > stop.tolerance) {
         if (options.on_singular == OnSingular::Refuse) {
-          throw Error(ErrorCode::SingularSystem,
-                      "no surface passes through these targets on " + component_name(component) +
-                          ": every vertex has valence 3 and the edges are two-colourable; choose alpha or least squares " +
-                          "(--on-singular alpha|least-squares)");
+          throw Error(
+              ErrorCode::SingularSystem,
+              "no surface passes through these targets on " + component_name(component) +
+                  ": every vertex has valence 3 and the edges are two-colourable; choose alpha or least squares " +
+                  "(--on-singular alpha|least-squares)");
         }
         alpha = options.on_singular == OnSingular::Alpha;
       }
@@ -186,8 +188,8 @@ struct Interpolator::Parts {
     append(result.report, part.solve_krylov(targets, result.control, stop), "; ");
   }
 
-  void solve_with_alpha(const Buffer<std::uint8_t>& vertices, double alpha, ConstValuesRef targets, const StopRule& stop,
-                        Interpolant& result) const {
+  void solve_with_alpha(const Buffer<std::uint8_t>& vertices, double alpha, ConstValuesRef targets,
+                        const StopRule& stop, Interpolant& result) const {
     if (std::count(vertices.begin(), vertices.end(), 1) == 0) return;
     if (result.vertex_alpha.empty()) {
       result.vertex_alpha.assign(static_cast<std::size_t>(topology.vertex_count()), scheme.alpha);

@@ -1,8 +1,9 @@
 /// \file Control points whose limit surface passes through given targets.
 ///
-/// A is the V-by-V limit matrix (limit/limit_matrix.h): row i takes control points P (V-by-k) to the limit position of vertex
-/// i. Interpolating targets Q means solving A P = Q. Connectivity does not change: the result is an ordinary control mesh.
-/// Corners are their targets; crease and boundary curves are solved one by one (tridiagonal); then the smooth vertices.
+/// A is the V-by-V limit matrix (limit/limit_matrix.h): row i takes control points P (V-by-k) to the limit position of
+/// vertex i. Interpolating targets Q means solving A P = Q. Connectivity does not change: the result is an ordinary
+/// control mesh. Corners are their targets; crease and boundary curves are solved one by one (tridiagonal); then the
+/// smooth vertices.
 #pragma once
 #include <memory>
 #include <vector>
@@ -13,8 +14,8 @@
 
 namespace batten {
 
-/// What to do with a component on which arbitrary targets have no control points (a cube: every vertex of valence 3 and the
-/// edges two-colourable), when the targets are not among those that have (MATH 2.2).
+/// What to do with a component on which arbitrary targets have no control points (a cube: every vertex of valence 3 and
+/// the edges two-colourable), when the targets are not among those that have (MATH 2.2).
 enum class OnSingular {
   Refuse,        ///< Error(SingularSystem)
   LeastSquares,  ///< the control points that miss all targets of the component by the same least distance
@@ -36,13 +37,13 @@ struct VertexError {
 };
 
 struct Interpolant {
-  Values control;                  ///< P, V-by-k, in the unit of the targets
-  SolveReport report;              ///< of the smooth vertices
-  double max_error = 0.0;          ///< max_i |A P - Q|_i, measured at the end in double, same unit
+  Values control;          ///< P, V-by-k, in the unit of the targets
+  SolveReport report;      ///< of the smooth vertices
+  double max_error = 0.0;  ///< max_i |A P - Q|_i, measured at the end in double, same unit
   double rms_error = 0.0;
-  std::vector<VertexError> worst;  ///< up to ten, the worst first
-  double max_movement = 0.0;       ///< max_i |P - Q|_i
-  Index singular_components = 0;   ///< components without a surface for arbitrary targets
+  std::vector<VertexError> worst;    ///< up to ten, the worst first
+  double max_movement = 0.0;         ///< max_i |P - Q|_i
+  Index singular_components = 0;     ///< components without a surface for arbitrary targets
   std::vector<double> vertex_alpha;  ///< empty, or the alpha used at each vertex: then see ordinary_surface()
 };
 

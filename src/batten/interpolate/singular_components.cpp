@@ -4,8 +4,8 @@ namespace batten {
 
 namespace {
 
-/// Collects the connected region of candidates around `seed`. False when it is not a whole component of candidates, or not
-/// two-colourable. Every candidate is visited once over all calls.
+/// Collects the connected region of candidates around `seed`. False when it is not a whole component of candidates, or
+/// not two-colourable. Every candidate is visited once over all calls.
 bool colour_region(const LimitMatrix& matrix, Index seed, Buffer<std::int8_t>& sign, SingularComponent& component) {
   const Topology& topology = matrix.topology();
   const auto is_candidate = [&](Index v) {
@@ -40,8 +40,7 @@ std::vector<SingularComponent> find_singular_components(const LimitMatrix& matri
   const Topology& topology = matrix.topology();
   Buffer<std::int8_t> sign(static_cast<std::size_t>(topology.vertex_count()), 0);
   for (Index v = 0; v < topology.vertex_count(); ++v) {
-    if (sign[v] != 0 || matrix.row_kind(v) != LimitRow::Smooth || matrix.alpha(v) != 0.0 ||
-        matrix.face_count(v) != 3) {
+    if (sign[v] != 0 || matrix.row_kind(v) != LimitRow::Smooth || matrix.alpha(v) != 0.0 || matrix.face_count(v) != 3) {
       continue;
     }
     SingularComponent component;

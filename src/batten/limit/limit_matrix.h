@@ -1,9 +1,9 @@
 /// \file Where the control points' surface passes: limit positions and limit normals at the vertices.
 ///
-/// The limit matrix A is V-by-V; row i takes control points P to the limit position of vertex i: A P. Rows by kind of vertex
-/// (MATH 1.1, 2.1, 3, 4.2): smooth [(n(n-1) + n alpha) v + (2 - alpha) sum e + 4 sum c]/(n(n+5)) on centroids c
-/// (Catmull-Clark) or (w v + sum e)/(w + n) (Loop); crease and boundary (a + 4 v + b)/6; corner and isolated v; a dart's row is
-/// its ring's left eigenvector; where tags still fade, the row of the surface once they have.
+/// The limit matrix A is V-by-V; row i takes control points P to the limit position of vertex i: A P. Rows by kind of
+/// vertex (MATH 1.1, 2.1, 3, 4.2): smooth [(n(n-1) + n alpha) v + (2 - alpha) sum e + 4 sum c]/(n(n+5)) on centroids c
+/// (Catmull-Clark) or (w v + sum e)/(w + n) (Loop); crease and boundary (a + 4 v + b)/6; corner and isolated v; a
+/// dart's row is its ring's left eigenvector; where tags still fade, the row of the surface once they have.
 #pragma once
 #include <Eigen/SparseCore>
 #include <vector>
@@ -78,8 +78,8 @@ class LimitMatrix {
   Scheme scheme_;
   LimitOptions options_;
   Buffer<std::uint8_t> kinds_;
-  Buffer<std::uint8_t> face_counts_;   ///< 255 stands for 255 or more
-  Buffer<Index> special_vertices_;  ///< ascending
+  Buffer<std::uint8_t> face_counts_;  ///< 255 stands for 255 or more
+  Buffer<Index> special_vertices_;    ///< ascending
   Buffer<std::size_t> special_offsets_;
   Buffer<Index> special_columns_;
   Buffer<double> special_weights_;
@@ -124,8 +124,8 @@ void LimitMatrix::visit_row(Index vertex, const Visit& visit) const {
     // The face left of h, and the one right of it, each give every corner an equal share of the centroid's weight.
     const double share = weights.face / topology_.face_size(topology_.face(h));
     centre += share;
-    visit(topology_.destination(h), weights.edge + share +
-                                        weights.face / topology_.face_size(topology_.face(topology_.twin(h))));
+    visit(topology_.destination(h),
+          weights.edge + share + weights.face / topology_.face_size(topology_.face(topology_.twin(h))));
     const Index last = topology_.previous(h);
     for (Index i = topology_.next(topology_.next(h)); i != last; i = topology_.next(i)) {
       visit(topology_.origin(i), share);

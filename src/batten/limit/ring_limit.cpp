@@ -154,8 +154,8 @@ void combine(RingMask& mask, double shift, const RingMask& other, double scale) 
   for (std::size_t j = 0; j < mask.faces.size(); ++j) mask.faces[j] = (mask.faces[j] - shift * other.faces[j]) * scale;
 }
 
-/// The left eigenvector of eigenvalue 1: the smooth mask pulled back until it stands still. The other eigenvalues are at
-/// most about 0.66, so this takes some 80 steps.
+/// The left eigenvector of eigenvalue 1: the smooth mask pulled back until it stands still. The other eigenvalues are
+/// at most about 0.66, so this takes some 80 steps.
 RingMask dart_position(const RingRules& rules) {
   RingMask mask = smooth_position(rules);
   for (int step = 0; step < kMostFixedPointSteps; ++step) {
@@ -191,8 +191,8 @@ RingMask stationary_position(const RingRules& rules, LimitMasks choice) {
   return mask;
 }
 
-/// The even eigenvector beside a dart's crease, by power iteration with the constants deflated; the odd one is the smooth
-/// sine mask, which the crease does not touch.
+/// The even eigenvector beside a dart's crease, by power iteration with the constants deflated; the odd one is the
+/// smooth sine mask, which the crease does not touch.
 TangentMasks dart_tangents(const RingRules& rules, int crease) {
   const TangentMasks smooth = smooth_tangents(rules.kind, rules.edge_count());
   const auto turned = [&](const RingMask& mask) {

@@ -1,8 +1,8 @@
 /// \file Limit masks of one vertex by its ring, whatever its tags: exact where OpenSubdiv's masks are not.
 ///
-/// The ring of a vertex refines into itself: (v, e_j, f_j) at level L gives (v', e'_j, f'_j) at level L + 1 by a matrix that
-/// depends on the sharpness around v alone. A mask on the finest ring is pulled back through these matrices to the control
-/// ring: a handful of steps while semi-sharp tags fade, and repeated to a fixed point for a dart.
+/// The ring of a vertex refines into itself: (v, e_j, f_j) at level L gives (v', e'_j, f'_j) at level L + 1 by a matrix
+/// that depends on the sharpness around v alone. A mask on the finest ring is pulled back through these matrices to the
+/// control ring: a handful of steps while semi-sharp tags fade, and repeated to a fixed point for a dart.
 #pragma once
 #include <vector>
 
@@ -17,10 +17,10 @@ struct RingRules {
   SchemeKind kind = SchemeKind::CatmullClark;
   CreaseMethod crease_method = CreaseMethod::Uniform;
   bool closed = true;
-  double alpha = 0.0;                 ///< in the first step
+  double alpha = 0.0;  ///< in the first step
   float vertex_sharpness = 0.0F;
-  Buffer<float> sharpness;            ///< of the edges
-  Buffer<float> outer_sharpness;      ///< of the child edge at the far end of each edge (Chaikin looks there)
+  Buffer<float> sharpness;                ///< of the edges
+  Buffer<float> outer_sharpness;          ///< of the child edge at the far end of each edge (Chaikin looks there)
   Buffer<std::uint8_t> smooth_triangles;  ///< per face: a triangle under TriangleRule::Smooth; empty for none
 
   int edge_count() const { return static_cast<int>(sharpness.size()); }

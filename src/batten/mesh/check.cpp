@@ -154,9 +154,9 @@ class Checker {
     for_each_edge([&](std::size_t i, std::size_t j) {
       const Side& side = sides_[i];
       if (j - i > 2) {
-        report(ErrorCode::NonManifoldEdge, edge_name(side.low, side.high) + " has " + std::to_string(j - i) +
-                                               " faces; at most two can meet in an edge: give each sheet its own copy " +
-                                               "of the two vertices");
+        report(ErrorCode::NonManifoldEdge,
+               edge_name(side.low, side.high) + " has " + std::to_string(j - i) +
+                   " faces; at most two can meet in an edge: give each sheet its own copy " + "of the two vertices");
       } else if (j - i == 2 && side.forward == sides_[i + 1].forward) {
         flipped = true;
       }

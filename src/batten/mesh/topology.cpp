@@ -288,7 +288,8 @@ Topology::Topology(const Mesh& mesh) {
   }
   if (build(mesh, tables_)) return;
   const std::vector<MeshProblem> problems = check(mesh);
-  if (problems.empty()) throw Error(ErrorCode::BadShape, "the mesh was refused for a reason that check() does not know");
+  if (problems.empty())
+    throw Error(ErrorCode::BadShape, "the mesh was refused for a reason that check() does not know");
   throw Error(problems.front().kind, problems.front().message);
 }
 

@@ -1,8 +1,8 @@
 /// \file The trusted connectivity of a mesh: half-edge tables, built once.
 ///
 /// A face's half-edges are contiguous: face f owns [face_begin(f), face_end(f)), half-edge h runs from origin(h) to
-/// origin(next(h)), and the face lies to its left. At a boundary the twin is -1. vertex_half_edge(v) starts v's fan: at a
-/// boundary vertex it is the boundary's outgoing half-edge, so that turning counter-clockwise meets every face once.
+/// origin(next(h)), and the face lies to its left. At a boundary the twin is -1. vertex_half_edge(v) starts v's fan: at
+/// a boundary vertex it is the boundary's outgoing half-edge, so that turning counter-clockwise meets every face once.
 #pragma once
 #include "batten/buffer.h"
 #include "batten/mesh/mesh.h"
@@ -29,9 +29,9 @@ struct TopologyTables {
 /// Immutable and safe to share between threads. Memory: 16 bytes a half-edge and 8 to 12 a vertex.
 class Topology {
  public:
-  /// The gate. O(V + H), no allocation per face. Throws Error: IndexOutOfRange, NotFinite, DegenerateFace, RepeatedFace,
-  /// NonManifoldEdge, NonManifoldVertex, InconsistentFaces, NonOrientable, TooLarge, BadShape, BadArgument (a crease that
-  /// is no edge). Vertices without a face are allowed.
+  /// The gate. O(V + H), no allocation per face. Throws Error: IndexOutOfRange, NotFinite, DegenerateFace,
+  /// RepeatedFace, NonManifoldEdge, NonManifoldVertex, InconsistentFaces, NonOrientable, TooLarge, BadShape,
+  /// BadArgument (a crease that is no edge). Vertices without a face are allowed.
   explicit Topology(const Mesh& mesh);
 
   /// Trusts its caller: for Refinement and the like.

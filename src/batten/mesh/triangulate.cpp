@@ -9,7 +9,9 @@ namespace {
 
 using Triangle = std::array<Index, 3>;  // positions in the face
 
-Eigen::Vector3d point(const Mesh& mesh, Index corner) { return mesh.points.row(mesh.face_vertices[corner]).transpose(); }
+Eigen::Vector3d point(const Mesh& mesh, Index corner) {
+  return mesh.points.row(mesh.face_vertices[corner]).transpose();
+}
 
 /// Newell's normal, not of unit length.
 Eigen::Vector3d face_normal(const Mesh& mesh, Index first, Index size) {

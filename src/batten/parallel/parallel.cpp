@@ -23,8 +23,8 @@ int thread_count() {
 
 ThreadLimit::ThreadLimit(int threads) {
   if (threads < 1) return;
-  control_ = std::make_unique<Control>(Control{tbb::global_control(tbb::global_control::max_allowed_parallelism,
-                                                                   static_cast<std::size_t>(threads))});
+  control_ = std::make_unique<Control>(
+      Control{tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads))});
 }
 
 #else

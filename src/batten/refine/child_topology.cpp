@@ -82,7 +82,8 @@ void fill_quads(const Topology& parent, TopologyTables& child) {
 void fill_triangles(const Topology& parent, TopologyTables& child) {
   const Index v_count = parent.vertex_count();
   const Index e_count = parent.edge_count();
-  // Half-edge h = 3f + k of the parent stands in two child triangles: the first side of 4f + k, the third of 4f + k + 1.
+  // Half-edge h = 3f + k of the parent stands in two child triangles: the first side of 4f + k, the third of 4f + k
+  // + 1.
   const auto corner_triangle = [](Index h) { return 4 * (h / 3) + h % 3; };
   parallel_for(parent.face_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (auto f = static_cast<Index>(begin); f < end; ++f) {

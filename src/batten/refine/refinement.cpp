@@ -80,8 +80,8 @@ struct Step {
     EdgeMask mask{0.5, 0.0};
     if (sharp < 1.0) {
       const Index twin = topology.twin(h);
-      const int triangles = (topology.face_size(topology.face(h)) == 3 ? 1 : 0) +
-                            (topology.face_size(topology.face(twin)) == 3 ? 1 : 0);
+      const int triangles =
+          (topology.face_size(topology.face(h)) == 3 ? 1 : 0) + (topology.face_size(topology.face(twin)) == 3 ? 1 : 0);
       const EdgeMask smooth = edge_mask(scheme, triangles);
       mask = {sharp * 0.5 + (1.0 - sharp) * smooth.end, (1.0 - sharp) * smooth.face};
       add<K>(target, mask.face, across(h), columns);

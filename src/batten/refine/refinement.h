@@ -10,9 +10,9 @@ namespace batten {
 
 /// One refinement step: the child connectivity, built in closed form, and the map from control values to refined ones.
 ///
-/// Vertex order of the child: vertex i of the parent, then one vertex an edge (V + e), then, for Catmull-Clark, one a face
-/// (V + E + f). Catmull-Clark makes of each half-edge h of the parent the quad h: (origin(h), edge(h), face, edge(previous(h))).
-/// Loop makes of each triangle f the triangles 4f..4f+2 at its corners and 4f+3 in the middle.
+/// Vertex order of the child: vertex i of the parent, then one vertex an edge (V + e), then, for Catmull-Clark, one a
+/// face (V + E + f). Catmull-Clark makes of each half-edge h of the parent the quad h: (origin(h), edge(h), face,
+/// edge(previous(h))). Loop makes of each triangle f the triangles 4f..4f+2 at its corners and 4f+3 in the middle.
 /// Rules: OpenSubdiv 3.5's, to rounding. Cost O(H) time and memory. The topology must outlive the refinement.
 class Refinement {
  public:

@@ -59,7 +59,7 @@ RingMask exact_cross(SchemeKind kind, int k) {
   const double theta = kPi / k;
   const double cotangent = 1.0 / std::tan(0.5 * theta);
   double lambda = 0.0;
-  double first = 0.0;   // right-hand sides of the two equations for x = e_0 = e_k and y = v
+  double first = 0.0;  // right-hand sides of the two equations for x = e_0 = e_k and y = v
   double second = 0.0;
   if (kind == SchemeKind::CatmullClark) {
     const double a = catmull_clark_a(theta);

@@ -9,9 +9,9 @@ namespace batten {
 /// Rows that have the same weights in the same order share a pattern: on a regular mesh nearly all rows do.
 struct RowPattern {
   double diagonal = 0.0;
-  std::vector<double> weights;     ///< off the diagonal, as they come
-  std::vector<float> normalised;   ///< weights / diagonal
-  double off_diagonal_sum = 0.0;   ///< of |weights| / diagonal
+  std::vector<double> weights;    ///< off the diagonal, as they come
+  std::vector<float> normalised;  ///< weights / diagonal
+  double off_diagonal_sum = 0.0;  ///< of |weights| / diagonal
 };
 
 /// A free row's entry in a column that is not free.

@@ -20,9 +20,9 @@ enum class SolveMethod {
 /// What an iteration achieved.
 struct SolveReport {
   SolveMethod method = SolveMethod::Auto;
-  std::string method_name;                ///< for people, with what was switched to, if anything
-  int iterations = 0;                     ///< applications of the matrix
-  std::vector<double> residual_history;   ///< max_i |target - A x|_i, each time it was measured, the start included
+  std::string method_name;               ///< for people, with what was switched to, if anything
+  int iterations = 0;                    ///< applications of the matrix
+  std::vector<double> residual_history;  ///< max_i |target - A x|_i, each time it was measured, the start included
   double seconds = 0.0;
   bool converged = false;
 };

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kSteps = TiledIteration::kStepsPerRound;
 
-/// One round of a polynomial iteration: y_1 = step_1 r, y_k = y_{k-1} + momentum_k (y_{k-1} - y_{k-2}) + step_k (r - G y_{k-1}).
+/// The coefficients of one round: d_k = momentum_k d_{k-1} + step_k D^-1 (b - A x_k), x_{k+1} = x_k + d_k.
 struct Schedule {
   float step[kSteps];
   float momentum[kSteps];
@@ -32,41 +32,58 @@ Schedule stationary_schedule(const IterationOptions& options) {
   return schedule;
 }
 
-/// Chebyshev's semi-iteration for a spectrum in [lower, upper] (Saad 2003, algorithm 12.1; key S03).
-Schedule chebyshev_schedule(double lower, double upper) {
-  const double middle = 0.5 * (upper + lower);
-  const double half = 0.5 * (upper - lower);
-  const double sigma = middle / half;
-  Schedule schedule;
-  schedule.step[0] = static_cast<float>(1.0 / middle);
-  schedule.momentum[0] = 0.0F;
-  double rho = 1.0 / sigma;
-  for (int k = 1; k < kSteps; ++k) {
-    const double next = 1.0 / (2.0 * sigma - rho);
-    schedule.step[k] = static_cast<float>(2.0 * next / half);
-    schedule.momentum[k] = static_cast<float>(next * rho);
-    rho = next;
+/// Chebyshev's semi-iteration for a spectrum in [lower, upper] (Saad 2003, algorithm 12.1; key S03), round after round.
+class Chebyshev {
+ public:
+  Chebyshev(double lower, double upper) : lower_(lower), upper_(upper) { restart(lower); }
+
+  double lower() const { return lower_; }
+
+  void restart(double lower) {
+    lower_ = lower;
+    rho_ = 0.0;
+    steps_ = 0;
   }
-  return schedule;
-}
 
-/// The lowest eigenvalue that explains a round's measured contraction, given the interval it was run with.
-double lower_bound_from(double contraction, double lower, double upper) {
-  const double middle = 0.5 * (upper + lower);
-  const double half = 0.5 * (upper - lower);
-  const double at_zero = std::cosh(kSteps * std::acosh(middle / half));
-  const double value = std::min(contraction, 1.0) * at_zero;
-  if (value <= 1.0) return lower;
-  return middle - half * std::cosh(std::acosh(value) / kSteps);
-}
+  Schedule next(int steps) {
+    Schedule schedule;
+    for (int k = 0; k < steps; ++k, ++steps_) {
+      if (steps_ == 0) {
+        schedule.step[k] = static_cast<float>(1.0 / middle());
+        schedule.momentum[k] = 0.0F;
+        rho_ = half() / middle();
+        continue;
+      }
+      const double rho = 1.0 / (2.0 * middle() / half() - rho_);
+      schedule.step[k] = static_cast<float>(2.0 * rho / half());
+      schedule.momentum[k] = static_cast<float>(rho * rho_);
+      rho_ = rho;
+    }
+    return schedule;
+  }
 
-/// How many steps of the next round are enough, judging by the contraction of the last one; at most kSteps.
-int steps_needed(double wanted, double last_contraction, double lower, double upper) {
-  const double growth = std::acosh((upper + lower) / (upper - lower));
-  const double slack = last_contraction * std::cosh(kSteps * growth);
-  int steps = 1;
-  while (steps < kSteps && slack > 0.5 * wanted * std::cosh(steps * growth)) ++steps;
-  return steps;
+  /// The lowest eigenvalue that explains how far the residual has come since the start: |T_n(y(lambda))| / T_n(y(0)).
+  double lowest_eigenvalue(double contraction) const {
+    const double at_zero = steps_ * std::acosh(middle() / half());
+    const double at_lowest =
+        std::log(std::min(contraction, 1.0)) + at_zero;  // cosh n a is exp(n a)/2 but for small n a
+    if (at_lowest <= 1.0) return lower_;
+    return middle() - half() * std::cosh(at_lowest / steps_);
+  }
+
+ private:
+  double middle() const { return 0.5 * (upper_ + lower_); }
+  double half() const { return 0.5 * (upper_ - lower_); }
+  double lower_;
+  double upper_;
+  double rho_ = 0.0;
+  int steps_ = 0;
+};
+
+/// How many steps are enough for a residual `wanted` times the present one, at the last round's rate; at most kSteps.
+int steps_needed(double wanted, double last_contraction) {
+  const double steps = std::ceil(kSteps * std::log(0.7 * wanted) / std::log(last_contraction));
+  return static_cast<int>(std::clamp(steps, 1.0, static_cast<double>(kSteps)));
 }
 
 /// Up to four columns of the problem in the order of the tiles.
@@ -74,6 +91,7 @@ struct Columns {
   Buffer<Double4> b;
   Buffer<Double4> x;
   Buffer<Float4> residual;  ///< (b - A x) / diagonal
+  Buffer<Float4> change;    ///< x less its value one step before
 };
 
 /// What a thread needs for one tile.
@@ -104,6 +122,7 @@ Columns gather(const Tiling& tiling, ConstValuesRef b, const ValuesRef& x, std::
   columns.b.resize(tiling.order.size());
   columns.x.resize(tiling.order.size());
   columns.residual.resize(tiling.order.size());
+  columns.change.resize(tiling.order.size());
   parallel_for(static_cast<std::ptrdiff_t>(tiling.order.size()), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (std::ptrdiff_t i = begin; i < end; ++i) {
       const Index row = tiling.order[i];
@@ -149,64 +168,73 @@ double measure(const Tiling& tiling, const Tile& tile, Columns& columns) {
   return most;
 }
 
-/// Runs a round's steps in the tile and adds the correction to its own unknowns.
-void correct(const Tiling& tiling, const Tile& tile, const Schedule& schedule, int steps, Columns& columns) {
+/// Runs a round's steps in the tile and adds the correction to its own unknowns. The change of the last round is only
+/// read here, since neighbours read it too; the new one goes to next_change.
+void correct(const Tiling& tiling, const Tile& tile, const Schedule& schedule, int steps, Columns& columns,
+             Buffer<Float4>& next_change) {
   Scratch& scratch = scratch_for(tile);
   const Index own = tile.own_count;
-  std::copy_n(columns.residual.begin() + tile.first, own, scratch.residual.begin());
-  for (Index i = own; i < tile.ring_end[steps - 1]; ++i) scratch.residual[i] = columns.residual[tile.ghosts[i - own]];
+  const Index all = tile.ring_end[steps - 1];
   Float4* now = scratch.now.data();
   Float4* previous = scratch.previous.data();
+  std::copy_n(columns.residual.begin() + tile.first, own, scratch.residual.begin());
+  for (Index i = own; i < all; ++i) scratch.residual[i] = columns.residual[tile.ghosts[i - own]];
+  if (schedule.momentum[0] != 0.0F) {
+    for (Index i = 0; i < own; ++i) now[i] = schedule.momentum[0] * columns.change[tile.first + i];
+    for (Index i = own; i < all; ++i) now[i] = schedule.momentum[0] * columns.change[tile.ghosts[i - own]];
+  } else {
+    std::fill_n(now, all, Float4{0.0F, 0.0F, 0.0F, 0.0F});
+  }
+  std::fill_n(previous, all, Float4{0.0F, 0.0F, 0.0F, 0.0F});
   for (Index s = 0; s < tile.segment_end[steps - 1]; ++s) {
     const TileSegment& segment = tile.segments[s];
     const auto diagonal = static_cast<float>(tiling.patterns[segment.pattern].diagonal);
     const float step = schedule.step_by_diagonal ? schedule.step[0] * diagonal : schedule.step[0];
-    for (Index i = segment.first_row; i < segment.first_row + segment.row_count; ++i) {
-      now[i] = step * scratch.residual[i];
-      previous[i] = Float4{0.0F, 0.0F, 0.0F, 0.0F};
-    }
+    const Index last = segment.first_row + segment.row_count;
+    for (Index i = segment.first_row; i < last; ++i) now[i] += step * scratch.residual[i];
   }
   for (int k = 1; k < steps; ++k) {
     tile_step(tile, tiling.patterns, steps - 1 - k, schedule.step[k], schedule.momentum[k], schedule.step_by_diagonal,
               scratch.residual.data(), now, previous);
     std::swap(now, previous);
   }
-  for (Index i = 0; i < own; ++i) columns.x[tile.first + i] += __builtin_convertvector(now[i], Double4);
+  for (Index i = 0; i < own; ++i) {
+    columns.x[tile.first + i] += __builtin_convertvector(now[i], Double4);
+    next_change[tile.first + i] = now[i] - previous[i];
+  }
 }
 
 /// The rounds for up to four columns.
 class Rounds {
  public:
   Rounds(const Tiling& tiling, const IterationOptions& options, const StopRule& stop)
-      : tiling_(tiling), options_(options), stop_(stop), lower_(options.lower_bound) {}
+      : tiling_(tiling), options_(options), stop_(stop), chebyshev_(options.lower_bound, tiling.upper_bound) {}
 
   void run(Columns& columns, double tolerance) {
     const auto tile_count = static_cast<std::ptrdiff_t>(tiling_.tiles.size());
-    const bool chebyshev = options_.method == SolveMethod::Chebyshev;
-    double last = 0.0;
+    Buffer<Float4> next_change(columns.change.size());
     while (true) {
-      const double now = std::sqrt(parallel_reduce(
+      history.push_back(std::sqrt(parallel_reduce(
           tile_count, 0.0,
           [&](std::ptrdiff_t t, std::ptrdiff_t /*end*/) { return measure(tiling_, tiling_.tiles[t], columns); },
-          larger_or_nan, 1));
-      history.push_back(now);
+          larger_or_nan, 1)));
+      const double now = history.back();
       stop_.report(history.front(), now);
       converged = now <= tolerance;
       if (converged || iterations >= stop_.max_iterations || !std::isfinite(now)) return;
       int steps = kSteps;
-      if (chebyshev && last > 0.0) {
-        const double contraction = now / last;
-        if (!(contraction < 0.95)) return;
-        const double found = lower_bound_from(contraction, lower_, tiling_.upper_bound);
-        if (found < 0.95 * lower_) lower_ = 0.9 * found;
-        if (lower_ < options_.give_up_below) return;
-        steps = steps_needed(tolerance / now, contraction, lower_, tiling_.upper_bound);
+      Schedule schedule;
+      if (options_.method == SolveMethod::Chebyshev) {
+        if (!adapt(now, tolerance, steps)) return;
+        schedule = chebyshev_.next(steps);
+      } else {
+        schedule = stationary_schedule(options_);
       }
-      const Schedule schedule = chebyshev ? chebyshev_schedule(lower_, tiling_.upper_bound) : stationary_schedule(options_);
-      parallel_for_each(tile_count,
-                        [&](std::ptrdiff_t t) { correct(tiling_, tiling_.tiles[t], schedule, steps, columns); });
+      parallel_for_each(tile_count, [&](std::ptrdiff_t t) {
+        correct(tiling_, tiling_.tiles[t], schedule, steps, columns, next_change);
+      });
+      std::swap(columns.change, next_change);
       iterations += steps;
-      last = steps == kSteps ? now : 0.0;
     }
   }
 
@@ -215,10 +243,27 @@ class Rounds {
   bool converged = false;
 
  private:
+  /// Lowers the bound where the residual falls more slowly than it should, and chooses the number of steps. False: give
+  /// up.
+  bool adapt(double now, double tolerance, int& steps) {
+    if (history.size() == 1) start_ = now;
+    if (history.size() < 2) return true;
+    const double contraction = now / history[history.size() - 2];
+    if (!(contraction < 0.95)) return false;
+    const double lowest = chebyshev_.lowest_eigenvalue(now / start_);
+    if (lowest < 0.9 * chebyshev_.lower()) {
+      chebyshev_.restart(0.9 * lowest);
+      start_ = now;
+    }
+    steps = steps_needed(tolerance / now, contraction);
+    return chebyshev_.lower() >= options_.give_up_below;
+  }
+
   const Tiling& tiling_;
   const IterationOptions& options_;
   const StopRule& stop_;
-  double lower_;
+  Chebyshev chebyshev_;
+  double start_ = 0.0;
 };
 
 }  // namespace

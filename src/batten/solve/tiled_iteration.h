@@ -1,11 +1,12 @@
-/// \file Polynomial iterations (Chebyshev, damped Jacobi, Richardson) for a sparse system, in tiles that stay in the cache.
+/// \file Polynomial iterations (Chebyshev, damped Jacobi, Richardson) for a sparse system, in tiles that stay in the
+/// cache.
 ///
-/// Each iteration of a sweep over a large mesh would read every index and every vector from memory again. Here the unknowns
-/// are cut into tiles of a few thousand; a tile takes along the rings of unknowns around it that several steps reach, runs
-/// these steps in the core's own cache in float, and writes back its own unknowns. The result is that of the global
-/// iteration, step by step, to rounding (a "matrix powers kernel", Demmel and others 2008, key DHMY08), for one pass through memory
-/// every `kStepsPerRound` steps. Residuals are measured in double between the rounds and each round solves for a correction,
-/// so that the result is as exact as double allows.
+/// Each iteration of a sweep over a large mesh would read every index and every vector from memory again. Here the
+/// unknowns are cut into tiles of a few thousand; a tile takes along the rings of unknowns around it that several steps
+/// reach, runs these steps in the core's own cache in float, and writes back its own unknowns. The result is that of
+/// the global iteration, step by step, to rounding (a "matrix powers kernel", Demmel and others 2008, key DHMY08), for
+/// one pass through memory every `kStepsPerRound` steps. Residuals are measured in double between the rounds the next
+/// round goes on from there with corrections in float, so that the result is as exact as double allows.
 #pragma once
 #include <memory>
 #include <vector>
@@ -43,7 +44,8 @@ struct IterationOptions {
   SolveMethod method = SolveMethod::Chebyshev;  ///< or Jacobi, Richardson
   double omega = 0.5;                           ///< Jacobi's damping
   double lower_bound = 0.2;  ///< Chebyshev: of the spectrum of D^-1 A to start with; adapts to the measured convergence
-  double give_up_below = 0.0;  ///< Chebyshev: stop when the bound had to fall below this (the caller has a better method)
+  double give_up_below =
+      0.0;  ///< Chebyshev: stop when the bound had to fall below this (the caller has a better method)
 };
 
 /// Build: O(nonzeros), 45 to 70 bytes an unknown. Safe to share between threads.
@@ -58,8 +60,8 @@ class TiledIteration {
   /// Solves A x = b for the free rows; x holds the start, and the values of the others. b and x: n-by-k.
   SolveReport solve(ConstValuesRef b, ValuesRef x, const IterationOptions& options, const StopRule& stop) const;
 
-  /// An upper bound of the spectrum of D^-1 A, rigorous for a matrix similar to a symmetric one: 1 plus the largest
-  /// geometric mean of the off-diagonal row sums of two rows that share an entry (Brauer 1947, Brualdi 1982; keys B47, B82).
+  /// A rigorous upper bound of the spectrum of D^-1 A: max_i (|D^-1 A| u)_i / u_i for a positive u near the dominant
+  /// eigenvector (Collatz 1942, Wielandt 1950; key C42).
   double upper_bound() const;
 
   /// Unknowns held by all tiles, rings included, over unknowns: what the tiling costs.

@@ -20,8 +20,8 @@ Index tile_count_for(Index free_count) {
   return 2 * ((free_count + 2 * kTileSize - 1) / (2 * kTileSize));
 }
 
-/// Grows the tiles breadth-first one after the other, each from where the ones before stopped: compact patches. Returns the
-/// free rows in the order of tiles, tile t being [t n/count, (t+1) n/count).
+/// Grows the tiles breadth-first one after the other, each from where the ones before stopped: compact patches. Returns
+/// the free rows in the order of tiles, tile t being [t n/count, (t+1) n/count).
 Buffer<Index> grow_tiles(const RowTable& rows, Index count) {
   Buffer<Index> order;
   order.reserve(static_cast<std::size_t>(rows.free_count()));
@@ -164,7 +164,8 @@ class TileBuilder {
 
   void sort_ghosts(Tile& tile) const {
     Buffer<Index> ghosts(tile.ghosts.size());
-    for (std::size_t i = 0; i < ghosts.size(); ++i) ghosts[i] = tile.ghosts[sorted_[tile.own_count + i] - tile.own_count];
+    for (std::size_t i = 0; i < ghosts.size(); ++i)
+      ghosts[i] = tile.ghosts[sorted_[tile.own_count + i] - tile.own_count];
     tile.ghosts = std::move(ghosts);
   }
 
@@ -178,30 +179,41 @@ class TileBuilder {
   Buffer<std::uint16_t> new_place_;
 };
 
-double brauer_bound(const RowTable& rows) {
-  const std::vector<RowPattern>& patterns = rows.patterns();
-  const double most = parallel_reduce(
-      rows.size(), 0.0,
-      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-        double product = 0.0;
-        for (auto row = static_cast<Index>(begin); row < end; ++row) {
-          if (!rows.is_free(row)) continue;
-          const double sum = patterns[rows.pattern_of(row)].off_diagonal_sum;
-          const Index* columns = rows.columns(row);
-          for (Index k = 0; k < rows.column_count(row); ++k) {
-            product = std::max(product, sum * patterns[rows.pattern_of(columns[k])].off_diagonal_sum);
+/// The spectral radius of a matrix of weights |G| is at most max_i (|G| u)_i / u_i for any positive u; power iteration
+/// on u brings the bound down to it (Collatz 1942, Wielandt 1950).
+double collatz_bound(const RowTable& rows) {
+  constexpr int kSteps = 6;
+  const auto size = static_cast<std::size_t>(rows.size());
+  Buffer<float> u(size, 1.0F);
+  Buffer<float> next(size);
+  double bound = 0.0;
+  for (int step = 0; step < kSteps; ++step) {
+    const double most = parallel_reduce(
+        rows.size(), 0.0,
+        [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+          double ratio = 0.0;
+          for (auto row = static_cast<Index>(begin); row < end; ++row) {
+            if (!rows.is_free(row)) continue;
+            const std::vector<float>& weights = rows.patterns()[rows.pattern_of(row)].normalised;
+            const Index* columns = rows.columns(row);
+            float sum = u[row];
+            for (std::size_t k = 0; k < weights.size(); ++k) sum += std::abs(weights[k]) * u[columns[k]];
+            next[row] = 0.5F * sum;  // any scale will do; this one keeps the numbers near 1
+            ratio = std::max(ratio, static_cast<double>(sum) / static_cast<double>(u[row]));
           }
-        }
-        return product;
-      },
-      [](double a, double b) { return std::max(a, b); });
-  return 1.0 + std::sqrt(most);
+          return ratio;
+        },
+        [](double a, double b) { return std::max(a, b); });
+    bound = step == 0 ? most : std::min(bound, most);
+    std::swap(u, next);
+  }
+  return bound * (1.0 + 1e-5);  // the sums are floats
 }
 
 /// The rows of a segment; M is the number of columns of a row, 0 when it is known only at run time.
 template <int M>
-void step_segment(const TileSegment& segment, Index count, const float* weights, const std::uint16_t* columns, float step,
-                  float momentum, const Float4* residual, const Float4* now, Float4* previous) {
+void step_segment(const TileSegment& segment, Index count, const float* weights, const std::uint16_t* columns,
+                  float step, float momentum, const Float4* residual, const Float4* now, Float4* previous) {
   float local[M > 0 ? M : 1];
   for (int k = 0; k < M; ++k) local[k] = weights[k];
   const Index last = segment.first_row + segment.row_count;
@@ -222,9 +234,10 @@ using StepSegment = void (*)(const TileSegment&, Index, const float*, const std:
                              const Float4*, Float4*);
 
 StepSegment step_for(Index count) {
-  static constexpr StepSegment kTable[] = {
-      step_segment<0>, step_segment<1>, step_segment<2>, step_segment<3>,  step_segment<4>,  step_segment<5>, step_segment<6>,
-      step_segment<7>, step_segment<8>, step_segment<9>, step_segment<10>, step_segment<11>, step_segment<12>};
+  static constexpr StepSegment kTable[] = {step_segment<0>, step_segment<1>, step_segment<2>,  step_segment<3>,
+                                           step_segment<4>, step_segment<5>, step_segment<6>,  step_segment<7>,
+                                           step_segment<8>, step_segment<9>, step_segment<10>, step_segment<11>,
+                                           step_segment<12>};
   return count < static_cast<Index>(std::size(kTable)) ? kTable[count] : kTable[0];
 }
 
@@ -233,7 +246,7 @@ StepSegment step_for(Index count) {
 Tiling make_tiling(const RowTable& rows) {
   Tiling tiling;
   tiling.patterns = rows.patterns();
-  tiling.upper_bound = brauer_bound(rows);
+  tiling.upper_bound = collatz_bound(rows);
   const Index count = tile_count_for(rows.free_count());
   const auto begin_of = [&](std::ptrdiff_t t) { return static_cast<Index>(rows.free_count() * t / count); };
   tiling.order = grow_tiles(rows, count);

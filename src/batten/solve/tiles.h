@@ -11,8 +11,8 @@ namespace batten {
 using Float4 = float __attribute__((vector_size(16)));
 using Double4 = double __attribute__((vector_size(32)));
 
-/// Rows [first_row, first_row + row_count) of a tile share a pattern; their columns follow each other in Tile::columns, but
-/// for the last ring, whose rows are not needed.
+/// Rows [first_row, first_row + row_count) of a tile share a pattern; their columns follow each other in Tile::columns,
+/// but for the last ring, whose rows are not needed.
 struct TileSegment {
   Index first_row;
   Index row_count;
@@ -20,8 +20,8 @@ struct TileSegment {
   Index first_column;
 };
 
-/// A patch of unknowns with the rings around it. Local unknown i is, for i < own_count, the unknown first + i in the order of
-/// Tiling, and ghosts[i - own_count] after that; sorted by ring, and by pattern within a ring.
+/// A patch of unknowns with the rings around it. Local unknown i is, for i < own_count, the unknown first + i in the
+/// order of Tiling, and ghosts[i - own_count] after that; sorted by ring, and by pattern within a ring.
 struct Tile {
   static constexpr int kRings = TiledIteration::kStepsPerRound;  ///< rings 0 (the tile's own) .. kRings - 1
 
@@ -44,7 +44,8 @@ struct Tiling {
   double upper_bound = 0.0;
 };
 
-/// Throws nothing; a tiling that would need tiles of over 65,536 unknowns comes back with overlap infinite and no tiles.
+/// Throws nothing; a tiling that would need tiles of over 65,536 unknowns comes back with overlap infinite and no
+/// tiles.
 Tiling make_tiling(const RowTable& rows);
 
 /// One step on the rows of rings 0 .. last_ring:
