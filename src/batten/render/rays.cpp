@@ -81,6 +81,8 @@ Rays::Rays(const Triangles& triangles, const Overlay& overlay) : device_(rtcNewD
   if (!device_) throw Error(ErrorCode::NotAvailable, "Embree cannot start on this machine");
   surface_.reset(rtcNewScene(device_.get()));
   overlay_.reset(rtcNewScene(device_.get()));
+  // Without it a ray may slip through between two triangles and leave a light dot.
+  rtcSetSceneFlags(surface_.get(), RTC_SCENE_FLAG_ROBUST);
   has_surface_ = triangles.count() > 0;
   has_overlay_ = !overlay.markers.empty() || !overlay.tubes.empty();
   if (has_surface_) {
