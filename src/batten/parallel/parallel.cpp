@@ -12,6 +12,7 @@ namespace batten {
 #ifdef BATTEN_WITH_TBB
 
 struct ThreadLimit::Control {
+  explicit Control(std::size_t threads) : control(tbb::global_control::max_allowed_parallelism, threads) {}
   tbb::global_control control;
 };
 
@@ -23,8 +24,7 @@ int thread_count() {
 
 ThreadLimit::ThreadLimit(int threads) {
   if (threads < 1) return;
-  control_ = std::make_unique<Control>(
-      Control{tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads))});
+  control_ = std::make_unique<Control>(static_cast<std::size_t>(threads));
 }
 
 #else

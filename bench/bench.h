@@ -1,0 +1,68 @@
+/// \file What the parts of the bench of record share. Ratios in one run count; single timings on a shared machine don't.
+#pragma once
+#include <chrono>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "batten/interpolate/interpolator.h"
+
+namespace batten::bench {
+
+double median(std::vector<double> values);
+
+/// Seconds of one call.
+double seconds_of(const std::function<void()>& work);
+
+/// Runs the works in turn, `rounds` times A B C A B C ..., after one warm-up each; the median seconds of each.
+std::vector<double> in_turn(const std::vector<std::function<void()>>& works, int rounds);
+
+/// A Markdown table, row by row.
+class MarkdownTable {
+ public:
+  explicit MarkdownTable(const std::vector<std::string>& header);
+  void add(const std::vector<std::string>& row);
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+std::string number(double value, int digits = 3);
+
+/// A mesh of the kind that people bring: beast.obj of the test data where BATTEN_DATA is set, else models/creature.obj,
+/// refined until it has at least `vertices` vertices, its points moved by up to 0.3 mean edge lengths.
+struct Subject {
+  std::string name;
+  Topology topology;
+  Scheme scheme;
+  Values targets;
+};
+Subject subject(Index vertices);
+/// A noisy torus of about so many vertices.
+Subject torus_subject(Index vertices);
+
+/// The papers' iterations as whole sweeps over the mesh, with the tiles' kernel, order, precision and threads.
+class Sweeps {
+ public:
+  explicit Sweeps(const Subject& subject);
+  ~Sweeps();
+  /// Thall's (Jacobi, omega 1/2) or Lai and Cheng's (Richardson) to the tolerance; returns the number of sweeps.
+  int run(const Subject& subject, SolveMethod method, double tolerance) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+/// Eigen's conjugate gradients with a diagonal preconditioner, triplet assembly included; returns the largest miss.
+double eigen_conjugate_gradients(const Subject& subject, double relative_tolerance);
+
+std::string interpolation_section();
+std::string growth_section();
+std::string process_section();
+
+/// In a process of its own: interpolates a refined mesh of at least so many vertices, then exits.
+int run_large(Index vertices);
+
+}  // namespace batten::bench
