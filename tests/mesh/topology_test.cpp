@@ -55,9 +55,12 @@ TEST(Topology, EdgesAreNumberedOnceByTheirLowerHalfEdge) {
     for (Index h = 0; h < topology.half_edge_count(); ++h) {
       const Index twin = topology.twin(h);
       const bool lower = twin < 0 || h < twin;
-      if (lower) EXPECT_EQ(topology.edge(h), next_edge++) << sample.name;
-      if (lower) EXPECT_EQ(topology.edge_half_edge(topology.edge(h)), h) << sample.name;
-      if (twin >= 0) EXPECT_EQ(topology.edge(h), topology.edge(twin)) << sample.name;
+      if (lower) {
+        EXPECT_EQ(topology.edge(h), next_edge++) << sample.name;
+        EXPECT_EQ(topology.edge_half_edge(topology.edge(h)), h) << sample.name;
+      } else {
+        EXPECT_EQ(topology.edge(h), topology.edge(twin)) << sample.name;
+      }
     }
     EXPECT_EQ(topology.edge_count(), next_edge) << sample.name;
   }
@@ -84,7 +87,9 @@ TEST(Topology, AFanTurnsCounterClockwiseFromTheBoundary) {
     for (Index v = 0; v < topology.vertex_count(); ++v) {
       Index last = -1;
       topology.for_each_outgoing(v, [&](Index h) {
-        if (last >= 0) EXPECT_EQ(topology.origin(topology.previous(last)), topology.destination(h)) << sample.name;
+        if (last >= 0) {
+          EXPECT_EQ(topology.origin(topology.previous(last)), topology.destination(h)) << sample.name;
+        }
         last = h;
       });
       if (last < 0) continue;

@@ -6,7 +6,7 @@ namespace batten {
 
 enum class SchemeKind { CatmullClark, Loop };
 
-/// The defaults are OpenSubdiv's.
+/// The defaults are OpenSubdiv's, but for the boundary: its own is None.
 struct Scheme {
   SchemeKind kind = SchemeKind::CatmullClark;
   BoundaryRule boundary = BoundaryRule::EdgeOnly;
