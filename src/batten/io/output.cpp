@@ -121,7 +121,8 @@ void write_atomically(const std::string& path, const std::function<void(const st
   }
   std::error_code error;
   // A link stays a link: the file that it names is replaced.
-  const fs::path target = fs::is_symlink(path, error) ? fs::weakly_canonical(path) : fs::path(path);
+  const fs::path target = fs::is_symlink(path, error) ? fs::weakly_canonical(path, error) : fs::path(path);
+  if (target.empty()) throw_unwritable(path, error.message());
   const bool exists = fs::exists(target, error);
   if (fs::is_directory(target, error) || !target.has_filename()) {
     throw_unwritable(path, "it is a folder; name a file in it");

@@ -37,6 +37,7 @@ struct Fault {
 void require_index_count(const std::string& name, std::size_t count, const char* elements);
 
 /// A file in memory: regular files are mapped, so that reading costs no copy; pipes and "-" (standard input) are read.
+/// As with every mapped file, one that another program cuts short meanwhile ends the process.
 /// Throws Error(FileNotReadable), and Error(BadFile) for a file without a single byte.
 class InputFile {
  public:
