@@ -1,0 +1,175 @@
+/// The tool as a user meets it: exit codes, errors on stderr, files.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "batten/interpolate/interpolator.h"
+#include "batten/io/io.h"
+
+namespace batten {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Run {
+  int status;
+  std::string out;
+  std::string err;
+};
+
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+class Tool : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("batten-tool-" + std::to_string(getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  Run run(const std::string& arguments) const {
+    const std::string command = "cd '" + folder_.string() + "' && " BATTEN_TOOL " " + arguments + " >stdout.txt 2>stderr.txt";
+    const int status = std::system(command.c_str());
+    return {WEXITSTATUS(status), text_of(folder_ / "stdout.txt"), text_of(folder_ / "stderr.txt")};
+  }
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(path(name)) << text; }
+
+  fs::path folder_;
+};
+
+const std::string kModels = BATTEN_SOURCE_DIR "/models/";
+
+TEST_F(Tool, InterpolatesAndSaysHowExactly) {
+  const Run result = run("interpolate " + kModels + "pipe-joint.obj -o new/control.obj --report r.json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("max error"), std::string::npos);
+  const auto report = nlohmann::json::parse(text_of(path("r.json")));
+  EXPECT_LE(report["max_error"].get<double>(), 1e-10 * report["diagonal"].get<double>());
+  EXPECT_EQ(report["worst_vertices"].size(), 10U);
+  const Mesh input = read_mesh(kModels + "pipe-joint.obj");
+  const Mesh control = read_mesh(path("new/control.obj"));
+  const Topology topology(control);
+  const Values limit = LimitMatrix(topology, choose_scheme(control)).apply(control.points);
+  EXPECT_LE((limit - input.points).rowwise().norm().maxCoeff(), 1.01e-10 * bounding_diagonal(input.points));
+}
+
+TEST_F(Tool, KeepsCreasesInTheControlMesh) {
+  ASSERT_EQ(run("interpolate " + kModels + "bracket.obj -o control.obj --quiet").status, 0);
+  const Mesh input = read_mesh(kModels + "bracket.obj");
+  const Mesh control = read_mesh(path("control.obj"));
+  EXPECT_GT(input.creases.size(), 0U);
+  EXPECT_EQ(control.creases.size(), input.creases.size());
+  const Topology topology(control);
+  const Values limit = LimitMatrix(topology, choose_scheme(control)).apply(control.points);
+  EXPECT_LE((limit - input.points).rowwise().norm().maxCoeff(), 1.01e-10 * bounding_diagonal(input.points));
+}
+
+TEST_F(Tool, WritesTheOnceRefinedMeshOfAPerturbedCube) {
+  write("cube.obj",
+        "v -1 -1 -1\nv 1.3 -1 -1\nv -1 1 -1\nv 1 1 -1\nv -1 -1 1\nv 1 -1 1\nv -1 1 1\nv 1 1 1\n"
+        "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n");
+  const Run result = run("interpolate cube.obj -o control.obj");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("alpha = 1/2"), std::string::npos) << result.out;
+  EXPECT_EQ(read_mesh(path("control.obj")).vertex_count(), 26);
+  const Run refused = run("interpolate cube.obj -o other.obj --on-singular refuse");
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.err.find("the component of vertex 0"), std::string::npos) << refused.err;
+  EXPECT_FALSE(fs::exists(path("other.obj")));
+}
+
+TEST_F(Tool, PipesFromStandardInputToStandardOutput) {
+  const Run result = run("interpolate - --input-format obj -o - --output-format obj < " + kModels + "tripod.obj");
+  ASSERT_EQ(result.status, 0) << result.err;
+  write("piped.obj", result.out);
+  EXPECT_EQ(read_mesh(path("piped.obj")).face_count(), read_mesh(kModels + "tripod.obj").face_count());
+  EXPECT_NE(result.err.find("max error"), std::string::npos);  // the table does not get into the mesh
+}
+
+TEST_F(Tool, SubdividesToTheLimitWithNormals) {
+  ASSERT_EQ(run("subdivide " + kModels + "icosahedron.obj --levels 2 --limit -o fine.ply").status, 0);
+  const Mesh fine = read_mesh(path("fine.ply"));
+  EXPECT_EQ(fine.vertex_count(), 162);
+  ASSERT_EQ(fine.attributes.size(), 1U);
+  EXPECT_EQ(fine.attributes[0].name, "normal");
+  // By symmetry the normal at an icosahedron's vertex points from the centre.
+  const Eigen::RowVector3d point = fine.points.row(0);
+  EXPECT_LT((point.normalized() - fine.attributes[0].values.row(0)).norm(), 1e-12);
+}
+
+TEST_F(Tool, RefusesLoopOnQuadsWithTheHint) {
+  const Run result = run("interpolate " + kModels + "tripod.obj -o x.obj --scheme loop");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.err.find("--triangulate"), std::string::npos) << result.err;
+  EXPECT_EQ(run("interpolate " + kModels + "tripod.obj -o x.obj --scheme loop --triangulate").status, 0);
+}
+
+TEST_F(Tool, WrongUsageIsExitCodeTwo) {
+  EXPECT_EQ(run("interpolate").status, 2);
+  EXPECT_EQ(run("frobnicate x.obj").status, 2);
+  EXPECT_EQ(run("interpolate x.obj --scheme cubic").status, 2);
+  EXPECT_EQ(run("--help").status, 0);
+}
+
+TEST_F(Tool, ErrorsAreOneLineWithFileAndElement) {
+  write("bad.obj", "v 0 0 0\nv 1 0 zero\nf 1 2 3\n");
+  write("fin.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 2 1 4\nf 1 2 5\n");
+  for (const auto& expected : {std::pair("bad.obj", "bad.obj:2"), std::pair("fin.obj", "edge (0, 1) has 3 faces"),
+                               std::pair("missing.obj", "missing.obj")}) {
+    const Run result = run(std::string("interpolate ") + expected.first + " -o x.obj");
+    EXPECT_EQ(result.status, 1);
+    EXPECT_NE(result.err.find(expected.second), std::string::npos) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_FALSE(fs::exists(path("x.obj")));
+  }
+}
+
+TEST_F(Tool, AFailureLeavesTheOldOutput) {
+  write("old.obj", "# precious\n");
+  write("bad.obj", "v 0 0\n");
+  EXPECT_EQ(run("interpolate bad.obj -o old.obj").status, 1);
+  EXPECT_EQ(text_of(path("old.obj")), "# precious\n");
+}
+
+TEST_F(Tool, SaysWhenTheToleranceWasNotReached) {
+  const Run result =
+      run("interpolate " + kModels + "creature.obj -o x.obj --method jacobi --max-iterations 8");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.err.find("was not reached"), std::string::npos) << result.err;
+}
+
+TEST_F(Tool, InfoNamesWhatIsWrong) {
+  const Run good = run("info " + kModels + "torus-knot.obj");
+  EXPECT_EQ(good.status, 0);
+  EXPECT_NE(good.out.find("genus"), std::string::npos);
+  write("fin.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 2 1 4\nf 1 2 5\n");
+  EXPECT_NE(run("info fin.obj").out.find("edge (0, 1) has 3 faces"), std::string::npos);
+}
+
+TEST_F(Tool, ConvertsBetweenAllFormats) {
+  ASSERT_EQ(run("convert " + kModels + "icosahedron.obj -o a.ply").status, 0);
+  ASSERT_EQ(run("convert a.ply -o b.off").status, 0);
+  ASSERT_EQ(run("convert b.off -o c.obj").status, 0);
+  EXPECT_EQ(read_mesh(path("c.obj")).points, read_mesh(kModels + "icosahedron.obj").points);
+}
+
+TEST(Readme, ItsProgramIsTheExampleThatTheBuildCompiles) {
+  const std::string program = text_of(BATTEN_SOURCE_DIR "/examples/interpolate.cpp");
+  EXPECT_NE(text_of(BATTEN_SOURCE_DIR "/README.md").find("```cpp\n" + program + "```"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace batten
