@@ -30,7 +30,7 @@ void interpolate_attributes(Mesh& mesh, const Interpolator& interpolator) {
 }
 
 void add_error_rows(Table& table, const Interpolant& result, double diagonal) {
-  const Index worst = result.worst.empty() ? -1 : result.worst.front().vertex;
+  const Index worst = result.worst.empty() ? -1 : result.worst.front().row;
   table.add("max error", fmt::format("{:.3g} at vertex {} ({:.3g} of the diagonal)", result.max_error, worst,
                                      diagonal > 0.0 ? result.max_error / diagonal : 0.0));
   table.add("rms error", fmt::format("{:.3g}", result.rms_error));
@@ -54,7 +54,7 @@ nlohmann::ordered_json report_json(const InterpolateArguments& arguments, const 
                                    const Scheme& scheme, const Interpolant& result, double diagonal,
                                    const Stages& stages) {
   nlohmann::ordered_json worst = nlohmann::ordered_json::array();
-  for (const VertexError& entry : result.worst) worst.push_back({{"vertex", entry.vertex}, {"error", entry.error}});
+  for (const RowError& entry : result.worst) worst.push_back({{"vertex", entry.row}, {"error", entry.error}});
   return {{"verb", "interpolate"},
           {"input", arguments.common.input},
           {"output", arguments.common.output},

@@ -13,7 +13,7 @@ int run_subdivide(const SubdivideArguments& arguments) {
   const Mesh mesh = read_input(common);
   stages.finish("read");
   const Scheme scheme = scheme_for(common, mesh);
-  const Topology topology(mesh);
+  const Topology topology = with_surface_holes(Topology(mesh), scheme);
   stages.finish("topology");
   RefinedSurface surface = refine(topology, scheme, mesh.points, arguments.levels);
   const Scheme last = arguments.levels > 0 ? scheme.after_first_step() : scheme;

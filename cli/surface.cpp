@@ -11,18 +11,6 @@
 
 namespace batten::cli {
 
-namespace {
-
-/// The same connectivity with every face marked that is no part of the surface.
-Topology with_surface_holes(const Topology& topology, const Scheme& scheme) {
-  if (scheme.boundary != BoundaryRule::None) return topology;
-  TopologyTables tables = topology.tables();
-  tables.holes = surface_holes(topology, scheme);
-  return Topology::from_tables(std::move(tables));
-}
-
-}  // namespace
-
 Mesh limit_mesh(const Topology& topology, const Scheme& scheme, ConstValuesRef control, int levels) {
   const RefinedSurface refined = refine(with_surface_holes(topology, scheme), scheme, control, levels);
   const Scheme last = levels > 0 ? scheme.after_first_step() : scheme;

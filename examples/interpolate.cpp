@@ -8,7 +8,7 @@ int main(int argc, char** argv) {
   const batten::Topology topology(mesh);
   const batten::Interpolator interpolator(topology, batten::choose_scheme(mesh));
   const batten::Interpolant result = interpolator.solve(mesh.points);
-  std::printf("max error %g at vertex %d\n", result.max_error, result.worst.front().vertex);
+  std::printf("max error %g at vertex %d\n", result.max_error, result.worst.front().row);
   mesh.points = result.control;
   batten::write_mesh(argv[2], mesh);
 }

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -18,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Run {
+struct Outcome {
   int status;
   std::string out;
   std::string err;
@@ -39,7 +40,7 @@ class Tool : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  Run run(const std::string& arguments) const {
+  Outcome run(const std::string& arguments) const {
     const std::string command = "cd '" + folder_.string() + "' && " BATTEN_TOOL " " + arguments + " >stdout.txt 2>stderr.txt";
     const int status = std::system(command.c_str());
     return {WEXITSTATUS(status), text_of(folder_ / "stdout.txt"), text_of(folder_ / "stderr.txt")};
@@ -53,7 +54,7 @@ class Tool : public testing::Test {
 const std::string kModels = BATTEN_SOURCE_DIR "/models/";
 
 TEST_F(Tool, InterpolatesAndSaysHowExactly) {
-  const Run result = run("interpolate " + kModels + "pipe-joint.obj -o new/control.obj --report r.json");
+  const Outcome result = run("interpolate " + kModels + "pipe-joint.obj -o new/control.obj --report r.json");
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_NE(result.out.find("max error"), std::string::npos);
   const auto report = nlohmann::json::parse(text_of(path("r.json")));
@@ -81,18 +82,18 @@ TEST_F(Tool, WritesTheOnceRefinedMeshOfAPerturbedCube) {
   write("cube.obj",
         "v -1 -1 -1\nv 1.3 -1 -1\nv -1 1 -1\nv 1 1 -1\nv -1 -1 1\nv 1 -1 1\nv -1 1 1\nv 1 1 1\n"
         "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n");
-  const Run result = run("interpolate cube.obj -o control.obj");
+  const Outcome result = run("interpolate cube.obj -o control.obj");
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_NE(result.out.find("alpha = 1/2"), std::string::npos) << result.out;
   EXPECT_EQ(read_mesh(path("control.obj")).vertex_count(), 26);
-  const Run refused = run("interpolate cube.obj -o other.obj --on-singular refuse");
+  const Outcome refused = run("interpolate cube.obj -o other.obj --on-singular refuse");
   EXPECT_EQ(refused.status, 1);
   EXPECT_NE(refused.err.find("the component of vertex 0"), std::string::npos) << refused.err;
   EXPECT_FALSE(fs::exists(path("other.obj")));
 }
 
 TEST_F(Tool, PipesFromStandardInputToStandardOutput) {
-  const Run result = run("interpolate - --input-format obj -o - --output-format obj < " + kModels + "tripod.obj");
+  const Outcome result = run("interpolate - --input-format obj -o - --output-format obj < " + kModels + "tripod.obj");
   ASSERT_EQ(result.status, 0) << result.err;
   write("piped.obj", result.out);
   EXPECT_EQ(read_mesh(path("piped.obj")).face_count(), read_mesh(kModels + "tripod.obj").face_count());
@@ -111,7 +112,7 @@ TEST_F(Tool, SubdividesToTheLimitWithNormals) {
 }
 
 TEST_F(Tool, RefusesLoopOnQuadsWithTheHint) {
-  const Run result = run("interpolate " + kModels + "tripod.obj -o x.obj --scheme loop");
+  const Outcome result = run("interpolate " + kModels + "tripod.obj -o x.obj --scheme loop");
   EXPECT_EQ(result.status, 1);
   EXPECT_NE(result.err.find("--triangulate"), std::string::npos) << result.err;
   EXPECT_EQ(run("interpolate " + kModels + "tripod.obj -o x.obj --scheme loop --triangulate").status, 0);
@@ -129,7 +130,7 @@ TEST_F(Tool, ErrorsAreOneLineWithFileAndElement) {
   write("fin.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 2 1 4\nf 1 2 5\n");
   for (const auto& expected : {std::pair("bad.obj", "bad.obj:2"), std::pair("fin.obj", "edge (0, 1) has 3 faces"),
                                std::pair("missing.obj", "missing.obj")}) {
-    const Run result = run(std::string("interpolate ") + expected.first + " -o x.obj");
+    const Outcome result = run(std::string("interpolate ") + expected.first + " -o x.obj");
     EXPECT_EQ(result.status, 1);
     EXPECT_NE(result.err.find(expected.second), std::string::npos) << result.err;
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
@@ -145,14 +146,14 @@ TEST_F(Tool, AFailureLeavesTheOldOutput) {
 }
 
 TEST_F(Tool, SaysWhenTheToleranceWasNotReached) {
-  const Run result =
+  const Outcome result =
       run("interpolate " + kModels + "creature.obj -o x.obj --method jacobi --max-iterations 8");
   EXPECT_EQ(result.status, 1);
   EXPECT_NE(result.err.find("was not reached"), std::string::npos) << result.err;
 }
 
 TEST_F(Tool, InfoNamesWhatIsWrong) {
-  const Run good = run("info " + kModels + "torus-knot.obj");
+  const Outcome good = run("info " + kModels + "torus-knot.obj");
   EXPECT_EQ(good.status, 0);
   EXPECT_NE(good.out.find("genus"), std::string::npos);
   write("fin.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 2 1 4\nf 1 2 5\n");

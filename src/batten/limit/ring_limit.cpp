@@ -28,11 +28,11 @@ void spread_centroids(const RingRules& rules, const std::vector<double>& centroi
 }
 
 /// Weight of the midpoint in the child of edge j.
-double sharp_weight(const RingRules& rules, int j) {
+double sharp_weight(const RingRules& rules, SemiSharpEdges around, int j) {
   const float sharpness = rules.sharpness[j];
   if (!is_sharp(sharpness)) return 0.0;
   if (sharpness >= 1.0F) return 1.0;
-  const float near = subdivided_sharpness(sharpness, rules.sharpness, rules.crease_method);
+  const float near = subdivided_sharpness(sharpness, around, rules.crease_method);
   return is_sharp(near) && is_sharp(rules.outer_sharpness[j]) ? 1.0 : sharpness;
 }
 
@@ -46,9 +46,10 @@ void pull_back_edges(const RingRules& rules, const RingMask& child, RingMask& ma
   Scheme scheme;
   scheme.kind = rules.kind;
   scheme.triangle_rule = rules.smooth_triangles.empty() ? TriangleRule::Catmark : TriangleRule::Smooth;
+  const SemiSharpEdges around = semi_sharp_edges(rules.sharpness);
   for (int j = 0; j < rules.edge_count(); ++j) {
     const double weight = child.edges[j];
-    const double sharp = sharp_weight(rules, j);
+    const double sharp = sharp_weight(rules, around, j);
     double end = 0.5;
     if (sharp < 1.0) {
       const EdgeMask smooth = edge_mask(scheme, triangles_at(rules, j));
@@ -94,8 +95,9 @@ RingRules child_rules(const RingRules& rules) {
   child.alpha = 0.0;
   child.smooth_triangles.clear();
   child.vertex_sharpness = subdivided_sharpness(rules.vertex_sharpness);
+  const SemiSharpEdges around = semi_sharp_edges(rules.sharpness);
   for (std::size_t j = 0; j < child.sharpness.size(); ++j) {
-    child.sharpness[j] = subdivided_sharpness(rules.sharpness[j], rules.sharpness, rules.crease_method);
+    child.sharpness[j] = subdivided_sharpness(rules.sharpness[j], around, rules.crease_method);
     const float at_midpoint[] = {child.sharpness[j], rules.outer_sharpness[j]};
     child.outer_sharpness[j] = subdivided_sharpness(child.sharpness[j], at_midpoint, rules.crease_method);
   }
@@ -172,12 +174,12 @@ RingMask stationary_position(const RingRules& rules, LimitMasks choice) {
   RingMask mask = zero_mask(rules);
   switch (rule_of(rules)) {
     case VertexRule::Smooth:
-      if (choice == LimitMasks::Exact || rules.edge_count() > 2 || rules.kind == SchemeKind::Loop) {
-        return smooth_position(rules);
-      }
-      break;
     case VertexRule::Dart:
-      return choice == LimitMasks::Exact ? dart_position(rules) : smooth_position(rules);
+      if (choice == LimitMasks::Exact) {
+        return rule_of(rules) == VertexRule::Dart ? dart_position(rules) : smooth_position(rules);
+      }
+      if (rules.edge_count() > 2 || rules.kind == SchemeKind::Loop) return smooth_position(rules);
+      break;
     case VertexRule::Crease:
       mask.vertex = kCreaseLimitVertex;
       for (std::size_t j = 0; j < mask.edges.size(); ++j) {
@@ -189,6 +191,17 @@ RingMask stationary_position(const RingRules& rules, LimitMasks choice) {
   }
   mask.vertex = 1.0;
   return mask;
+}
+
+/// Averages a mask with its mirror image in the edge `crease`: rounding must not let in the odd eigenvector, which shrinks
+/// more slowly than the even one.
+void make_even(const RingRules& rules, int crease, RingMask& mask) {
+  const int n = rules.edge_count();
+  const RingMask before = mask;
+  for (int j = 0; j < n; ++j) {
+    mask.edges[j] = 0.5 * (before.edges[j] + before.edges[(2 * crease - j + 2 * n) % n]);
+    mask.faces[j] = 0.5 * (before.faces[j] + before.faces[(2 * crease - 1 - j + 2 * n) % n]);
+  }
 }
 
 /// The even eigenvector beside a dart's crease, by power iteration with the constants deflated; the odd one is the
@@ -208,6 +221,7 @@ TangentMasks dart_tangents(const RingRules& rules, int crease) {
   RingMask even = turned(smooth.first);
   for (int step = 0; step < kMostFixedPointSteps; ++step) {
     RingMask next = pull_back(rules, even);
+    make_even(rules, crease, next);
     combine(next, sum_of(next), position, 1.0);
     combine(next, 0.0, next, std::abs(even.edges[crease]) / std::max(std::abs(next.edges[crease]), 1e-300));
     const double change = difference(next, even);
@@ -245,6 +259,7 @@ TangentMasks sector_tangents(const RingRules& rules, int first, int faces, Limit
       if (n == 2) break;
       return smooth_tangents(rules.kind, n);
     case VertexRule::Dart:
+      if (n == 2 && (choice == LimitMasks::OpenSubdiv && rules.kind == SchemeKind::CatmullClark)) break;
       return choice == LimitMasks::Exact && n > 2 ? dart_tangents(rules, first) : smooth_tangents(rules.kind, n);
     case VertexRule::Crease:
       return crease_sector(rules, first, faces, choice);

@@ -210,4 +210,10 @@ Buffer<std::uint8_t> surface_holes(const Topology& topology, const Scheme& schem
   return holes;
 }
 
+Topology with_surface_holes(const Topology& topology, const Scheme& scheme) {
+  TopologyTables tables = topology.tables();
+  tables.holes = surface_holes(topology, scheme);
+  return Topology::from_tables(std::move(tables));
+}
+
 }  // namespace batten

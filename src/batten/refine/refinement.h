@@ -51,6 +51,10 @@ Scheme choose_scheme(const Mesh& mesh);
 
 /// Faces that are no part of the surface: tagged holes and, under BoundaryRule::None, the faces at boundary vertices
 /// whose boundary edges are not all tagged sharp. One flag a face, or empty for none.
+/// Ask on the control mesh: children inherit holes, and a child's own boundary faces are part of the surface.
 Buffer<std::uint8_t> surface_holes(const Topology& topology, const Scheme& scheme);
+
+/// The same connectivity with surface_holes() tagged as holes.
+Topology with_surface_holes(const Topology& topology, const Scheme& scheme);
 
 }  // namespace batten

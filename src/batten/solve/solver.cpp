@@ -8,6 +8,23 @@
 
 namespace batten {
 
+void ErrorSummary::add(const RowError& entry) {
+  constexpr std::size_t kKept = 10;
+  const auto before = [](const RowError& a, const RowError& b) {
+    return a.error != b.error ? a.error > b.error : a.row < b.row;
+  };
+  squares += entry.error * entry.error;
+  if (worst.size() == kKept && !before(entry, worst.back())) return;
+  worst.insert(std::upper_bound(worst.begin(), worst.end(), entry, before), entry);
+  if (worst.size() > kKept) worst.pop_back();
+}
+
+void ErrorSummary::add(const ErrorSummary& other) {
+  const double sum = squares + other.squares;
+  for (const RowError& entry : other.worst) add(entry);
+  squares = sum;
+}
+
 void StopRule::report(double first, double now) const {
   if (!progress) return;
   const double whole = std::log(std::max(first, 1e-300) / std::max(tolerance, 1e-300));

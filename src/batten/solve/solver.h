@@ -17,6 +17,21 @@ enum class SolveMethod {
   Direct              ///< sparse Cholesky, or LU where the system is not symmetric
 };
 
+/// How far a row's equation is from holding.
+struct RowError {
+  Index row;
+  double error;  ///< Euclidean length over the columns
+};
+
+/// The largest errors and the sum of squares of many rows.
+struct ErrorSummary {
+  std::vector<RowError> worst;  ///< up to ten, the worst first; of equal ones the lower row
+  double squares = 0.0;
+
+  void add(const RowError& entry);
+  void add(const ErrorSummary& other);
+};
+
 /// What an iteration achieved.
 struct SolveReport {
   SolveMethod method = SolveMethod::Auto;
@@ -25,6 +40,7 @@ struct SolveReport {
   std::vector<double> residual_history;  ///< max_i |target - A x|_i, each time it was measured, the start included
   double seconds = 0.0;
   bool converged = false;
+  ErrorSummary errors;  ///< of the rows solved for, where the method measures them row by row; else empty
 };
 
 /// When to stop: max_i |residual_i| <= tolerance, or after max_iterations.

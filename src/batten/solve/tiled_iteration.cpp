@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <mutex>
 
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
@@ -90,8 +91,11 @@ int steps_needed(double wanted, double last_contraction) {
 struct Columns {
   Buffer<Double4> b;
   Buffer<Double4> x;
-  Buffer<Float4> residual;  ///< (b - A x) / diagonal
-  Buffer<Float4> change;    ///< x less its value one step before
+  Buffer<Float4> residual;     ///< (b - A x) / diagonal
+  Buffer<Float4> change;       ///< x less its value one step before
+  Buffer<Float4> next_change;  ///< the same, as the running round writes it
+
+  explicit Columns(std::size_t size) : b(size), x(size), residual(size), change(size), next_change(size) {}
 };
 
 /// What a thread needs for one tile.
@@ -116,27 +120,26 @@ Scratch& scratch_for(const Tile& tile) {
   return scratch;
 }
 
+void load_row(const double* row, std::ptrdiff_t count, Double4& value) {
+  value = Double4{row[0], 0.0, 0.0, 0.0};
+  for (std::ptrdiff_t c = 1; c < count; ++c) value[c] = row[c];
+}
+
 /// The columns [first, first + count) of the free rows; held values move to the right-hand side.
-Columns gather(const Tiling& tiling, ConstValuesRef b, const ValuesRef& x, std::ptrdiff_t first, std::ptrdiff_t count) {
-  Columns columns;
-  columns.b.resize(tiling.order.size());
-  columns.x.resize(tiling.order.size());
-  columns.residual.resize(tiling.order.size());
-  columns.change.resize(tiling.order.size());
+void gather(const Tiling& tiling, ConstValuesRef b, const ValuesRef& x, std::ptrdiff_t first, std::ptrdiff_t count,
+            Columns& columns) {
+  const double* from_b = b.data() + first;
+  const double* from_x = x.data() + first;
   parallel_for(static_cast<std::ptrdiff_t>(tiling.order.size()), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (std::ptrdiff_t i = begin; i < end; ++i) {
-      const Index row = tiling.order[i];
-      columns.b[i] = columns.x[i] = Double4{0.0, 0.0, 0.0, 0.0};
-      for (std::ptrdiff_t c = 0; c < count; ++c) {
-        columns.b[i][c] = b(row, first + c);
-        columns.x[i][c] = x(row, first + c);
-      }
+      const std::ptrdiff_t row = tiling.order[i];
+      load_row(from_b + row * b.outerStride(), count, columns.b[i]);
+      load_row(from_x + row * x.outerStride(), count, columns.x[i]);
     }
   });
   for (const HeldEntry& entry : tiling.held) {
     for (std::ptrdiff_t c = 0; c < count; ++c) columns.b[entry.row][c] -= entry.weight * x(entry.column, first + c);
   }
-  return columns;
 }
 
 void scatter(const Tiling& tiling, const Columns& columns, std::ptrdiff_t first, std::ptrdiff_t count, ValuesRef& x) {
@@ -170,8 +173,7 @@ double measure(const Tiling& tiling, const Tile& tile, Columns& columns) {
 
 /// Runs a round's steps in the tile and adds the correction to its own unknowns. The change of the last round is only
 /// read here, since neighbours read it too; the new one goes to next_change.
-void correct(const Tiling& tiling, const Tile& tile, const Schedule& schedule, int steps, Columns& columns,
-             Buffer<Float4>& next_change) {
+void correct(const Tiling& tiling, const Tile& tile, const Schedule& schedule, int steps, Columns& columns) {
   Scratch& scratch = scratch_for(tile);
   const Index own = tile.own_count;
   const Index all = tile.ring_end[steps - 1];
@@ -200,7 +202,7 @@ void correct(const Tiling& tiling, const Tile& tile, const Schedule& schedule, i
   }
   for (Index i = 0; i < own; ++i) {
     columns.x[tile.first + i] += __builtin_convertvector(now[i], Double4);
-    next_change[tile.first + i] = now[i] - previous[i];
+    columns.next_change[tile.first + i] = now[i] - previous[i];
   }
 }
 
@@ -212,7 +214,6 @@ class Rounds {
 
   void run(Columns& columns, double tolerance) {
     const auto tile_count = static_cast<std::ptrdiff_t>(tiling_.tiles.size());
-    Buffer<Float4> next_change(columns.change.size());
     while (true) {
       history.push_back(std::sqrt(parallel_reduce(
           tile_count, 0.0,
@@ -231,9 +232,9 @@ class Rounds {
         schedule = stationary_schedule(options_);
       }
       parallel_for_each(tile_count, [&](std::ptrdiff_t t) {
-        correct(tiling_, tiling_.tiles[t], schedule, steps, columns, next_change);
+        correct(tiling_, tiling_.tiles[t], schedule, steps, columns);
       });
-      std::swap(columns.change, next_change);
+      std::swap(columns.change, columns.next_change);
       iterations += steps;
     }
   }
@@ -268,9 +269,54 @@ class Rounds {
 
 }  // namespace
 
+/// The tiles, and the columns of earlier solves: solving again and again must not pay for fresh memory.
 struct TiledIteration::Tiles : Tiling {
   explicit Tiles(Tiling tiling) : Tiling(std::move(tiling)) {}
+
+  std::unique_ptr<Columns> take_columns() {
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (spare.empty()) return std::make_unique<Columns>(order.size());
+    std::unique_ptr<Columns> columns = std::move(spare.back());
+    spare.pop_back();
+    return columns;
+  }
+  void give_back(std::unique_ptr<Columns> columns) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (spare.empty()) spare.push_back(std::move(columns));
+  }
+
+  std::mutex mutex;
+  std::vector<std::unique_ptr<Columns>> spare;
 };
+
+namespace {
+
+/// The rows' errors by the last measured residual, which is a double's to seven digits.
+ErrorSummary summarise(const Tiling& tiling, const Columns& columns) {
+  return parallel_reduce(
+      static_cast<std::ptrdiff_t>(tiling.tiles.size()), ErrorSummary(),
+      [&](std::ptrdiff_t t, std::ptrdiff_t /*end*/) {
+        ErrorSummary summary;
+        const Tile& tile = tiling.tiles[t];
+        for (Index s = 0; s < tile.segment_end[0]; ++s) {
+          const TileSegment& segment = tile.segments[s];
+          const double diagonal = tiling.patterns[segment.pattern].diagonal;
+          for (Index i = segment.first_row; i < segment.first_row + segment.row_count; ++i) {
+            const Double4 r = __builtin_convertvector(columns.residual[tile.first + i], Double4) * diagonal;
+            const Double4 square = r * r;
+            summary.add({tiling.order[tile.first + i], std::sqrt(square[0] + square[1] + square[2] + square[3])});
+          }
+        }
+        return summary;
+      },
+      [](ErrorSummary left, const ErrorSummary& right) {
+        left.add(right);
+        return left;
+      },
+      1);
+}
+
+}  // namespace
 
 TiledIteration::TiledIteration(const RowSource& rows) : tiles_(std::make_unique<Tiles>(make_tiling(RowTable(rows)))) {}
 
@@ -291,16 +337,19 @@ SolveReport TiledIteration::solve(ConstValuesRef b, ValuesRef x, const Iteration
   report.converged = true;
   // Each group of four columns keeps to its share of a row's allowed length.
   const std::ptrdiff_t groups = (x.cols() + 3) / 4;
+  std::unique_ptr<Columns> columns = tiles_->take_columns();
   for (std::ptrdiff_t g = 0; g < groups; ++g) {
     const std::ptrdiff_t count = std::min<std::ptrdiff_t>(4, x.cols() - 4 * g);
-    Columns columns = gather(*tiles_, b, x, 4 * g, count);
+    gather(*tiles_, b, x, 4 * g, count, *columns);
     Rounds rounds(*tiles_, options, stop);
-    rounds.run(columns, stop.tolerance / std::sqrt(static_cast<double>(groups)));
-    scatter(*tiles_, columns, 4 * g, count, x);
+    rounds.run(*columns, stop.tolerance / std::sqrt(static_cast<double>(groups)));
+    scatter(*tiles_, *columns, 4 * g, count, x);
     report.iterations = std::max(report.iterations, rounds.iterations);
     report.converged = report.converged && rounds.converged;
     report.residual_history.insert(report.residual_history.end(), rounds.history.begin(), rounds.history.end());
   }
+  if (groups == 1) report.errors = summarise(*tiles_, *columns);
+  tiles_->give_back(std::move(columns));
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return report;
 }
