@@ -1,4 +1,5 @@
-/// \file What the parts of the bench of record share. Ratios in one run count; single timings on a shared machine don't.
+/// \file What the parts of the bench of record share. Ratios in one run count; single timings on a shared machine
+/// don't.
 #pragma once
 #include <chrono>
 #include <functional>

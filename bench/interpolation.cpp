@@ -72,8 +72,8 @@ std::string against_rivals(const Subject& subject, bool with_cholesky) {
   };
   const std::vector<double> seconds =
       in_turn({solve(ours, 0), [&] { iterations[1] = sweeps.run(subject, SolveMethod::Jacobi, tolerance); },
-               [&] { iterations[2] = sweeps.run(subject, SolveMethod::Richardson, tolerance); }, solve(thall, 3), solve(lai, 4),
-               solve(plain, 5), [&] { eigen_conjugate_gradients(subject, eigen); },
+               [&] { iterations[2] = sweeps.run(subject, SolveMethod::Richardson, tolerance); }, solve(thall, 3),
+               solve(lai, 4), solve(plain, 5), [&] { eigen_conjugate_gradients(subject, eigen); },
                [&] { const Interpolator built(subject.topology, subject.scheme, options_of(SolveMethod::Auto)); }},
               5);
   const double vertices = subject.topology.vertex_count();
@@ -89,12 +89,14 @@ std::string against_rivals(const Subject& subject, bool with_cholesky) {
   add("our conjugate gradients (double, matrix-free)", std::to_string(iterations[5]), seconds[5], seconds[0]);
   if (with_cholesky) {
     const Interpolator direct(subject.topology, subject.scheme, options_of(SolveMethod::Direct));
-    add("sparse Cholesky (Eigen), assembly included", "", seconds_of([&] { result = direct.solve(subject.targets); }), seconds[0]);
+    add("sparse Cholesky (Eigen), assembly included", "", seconds_of([&] { result = direct.solve(subject.targets); }),
+        seconds[0]);
   }
   add("Batten, build", "", seconds[7], seconds[0]);
   add("**Batten, build and solve**", std::to_string(iterations[0]), seconds[0] + seconds[7], seconds[0] + seconds[7]);
   add("Eigen's conjugate gradients, assembly included", "", seconds[6], seconds[0] + seconds[7]);
-  return "### " + subject.name + ": " + std::to_string(subject.topology.vertex_count()) + " vertices\n\n" + table.text() + "\n";
+  return "### " + subject.name + ": " + std::to_string(subject.topology.vertex_count()) + " vertices\n\n" +
+         table.text() + "\n";
 }
 
 }  // namespace

@@ -66,23 +66,25 @@ std::string machine() {
   Buffer<char> from(bytes, 1);
   Buffer<char> to(bytes, 2);
   const auto copy = [&] {
-    parallel_for(static_cast<std::ptrdiff_t>(bytes),
-                 [&](std::ptrdiff_t begin, std::ptrdiff_t end) { std::memcpy(&to[begin], &from[begin], end - begin); },
-                 1 << 22);
+    parallel_for(
+        static_cast<std::ptrdiff_t>(bytes),
+        [&](std::ptrdiff_t begin, std::ptrdiff_t end) { std::memcpy(&to[begin], &from[begin], end - begin); }, 1 << 22);
   };
-  const double both = median({seconds_of(copy), seconds_of(copy), seconds_of(copy), seconds_of(copy), seconds_of(copy)});
+  const double both =
+      median({seconds_of(copy), seconds_of(copy), seconds_of(copy), seconds_of(copy), seconds_of(copy)});
   const ThreadLimit limit(1);
   const double one = median({seconds_of(copy), seconds_of(copy), seconds_of(copy), seconds_of(copy), seconds_of(copy)});
   std::ostringstream text;
-  text << "Machine: " << model << ", " << __VERSION__ << ", copy (read and write counted) " << number(2e-9 * bytes / one)
-       << " GB/s on one thread, " << number(2e-9 * bytes / both) << " on all.\n";
+  text << "Machine: " << model << ", " << __VERSION__ << ", copy (read and write counted) "
+       << number(2e-9 * bytes / one) << " GB/s on one thread, " << number(2e-9 * bytes / both) << " on all.\n";
   return text.str();
 }
 
 std::string topology_section() {
   const Mesh mesh = torus(1000, 1000);
   const double seconds = in_turn({[&] { const Topology topology(mesh); }}, 5)[0];
-  return "## Topology\n\n1 M quads from index lists to half-edge tables: " + number(1e3 * seconds) + " ms (asked: 150).\n\n";
+  return "## Topology\n\n1 M quads from index lists to half-edge tables: " + number(1e3 * seconds) +
+         " ms (asked: 150).\n\n";
 }
 
 }  // namespace
@@ -95,8 +97,9 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: batten_bench PAGE.md\n");
     return 2;
   }
-  std::string page = "# Performance\n\nMade by `./batten bench`; medians, the rivals run in turn in the same process. "
-                     "Ratios count, single timings on a shared machine do not.\n\n";
+  std::string page =
+      "# Performance\n\nMade by `./batten bench`; medians, the rivals run in turn in the same process. "
+      "Ratios count, single timings on a shared machine do not.\n\n";
   page += "Threads: " + std::to_string(batten::thread_count()) + ". " + machine() + "\n";
   for (const auto& section : {topology_section, interpolation_section, growth_section, process_section}) {
     page += section();

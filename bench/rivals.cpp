@@ -24,7 +24,10 @@ Buffer<std::uint8_t> smooth_rows(const LimitMatrix& matrix) {
 /// Rows in the tiles' order, neighbours as 32-bit places, runs of rows of one pattern: closed meshes only.
 struct Sweeps::Parts {
   explicit Parts(const Subject& subject)
-      : matrix(subject.topology, subject.scheme), block(matrix, smooth_rows(matrix)), rows(block), tiling(make_tiling(rows)) {
+      : matrix(subject.topology, subject.scheme),
+        block(matrix, smooth_rows(matrix)),
+        rows(block),
+        tiling(make_tiling(rows)) {
     Buffer<Index> place(static_cast<std::size_t>(rows.size()));
     for (std::size_t i = 0; i < tiling.order.size(); ++i) place[tiling.order[i]] = static_cast<Index>(i);
     for (const Index row : tiling.order) {

@@ -92,6 +92,14 @@ Scheme scheme_for(const CommonArguments& arguments, const Mesh& mesh) {
   return scheme;
 }
 
+std::int64_t peak_memory_bytes() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.rfind("VmHWM:", 0) == 0) return 1024 * std::stoll(line.substr(6));
+  }
+  return 0;
+}
+
 void write_json(const std::string& path, const nlohmann::ordered_json& json) {
   if (path.empty()) return;
   write_atomically(path, [&](const std::string& temporary) {

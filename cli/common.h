@@ -54,6 +54,8 @@ Mesh read_input(const CommonArguments& arguments);
 void write_output(const CommonArguments& arguments, const Mesh& mesh);
 /// The mesh's own scheme, overruled by the options.
 Scheme scheme_for(const CommonArguments& arguments, const Mesh& mesh);
+/// The most memory this process has held, in bytes; 0 where the system does not tell.
+std::int64_t peak_memory_bytes();
 void write_json(const std::string& path, const nlohmann::ordered_json& json);
 
 /// "12,345"

@@ -76,6 +76,7 @@ nlohmann::ordered_json report_json(const InterpolateArguments& arguments, const 
           {"singular_components", result.singular_components},
           {"alpha_used", !result.vertex_alpha.empty()},
           {"threads", thread_count()},
+          {"peak_memory_bytes", peak_memory_bytes()},
           {"seconds", stages.json()}};
 }
 

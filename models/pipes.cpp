@@ -67,8 +67,7 @@ Mesh pipe_joint() {
     const Vector3d side = pipe_axis(pipe + 1);
     const auto& after = seams[static_cast<std::size_t>(pipe)];
     const auto& before = seams[static_cast<std::size_t>((pipe + 3) % 4)];
-    std::vector<Index> ring;
-    for (int i = 0; i < 6; ++i) ring.push_back(after[static_cast<std::size_t>(i)]);
+    std::vector<Index> ring(after.begin(), after.begin() + 6);
     for (int i = 5; i >= 0; --i) ring.push_back(before[static_cast<std::size_t>(i)]);
     const std::vector<Index> seam = ring;
     for (int r = 1; r <= kRings; ++r) {

@@ -41,7 +41,8 @@ class Tool : public testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
 
   Outcome run(const std::string& arguments) const {
-    const std::string command = "cd '" + folder_.string() + "' && " BATTEN_TOOL " " + arguments + " >stdout.txt 2>stderr.txt";
+    const std::string command =
+        "cd '" + folder_.string() + "' && " BATTEN_TOOL " " + arguments + " >stdout.txt 2>stderr.txt";
     const int status = std::system(command.c_str());
     return {WEXITSTATUS(status), text_of(folder_ / "stdout.txt"), text_of(folder_ / "stderr.txt")};
   }
@@ -108,7 +109,8 @@ TEST_F(Tool, SubdividesToTheLimitWithNormals) {
   EXPECT_EQ(fine.attributes[0].name, "normal");
   // By symmetry the normal at an icosahedron's vertex points from the centre.
   const Eigen::RowVector3d point = fine.points.row(0);
-  EXPECT_LT((point.normalized() - fine.attributes[0].values.row(0)).norm(), 1e-12);
+  // The model has six decimals.
+  EXPECT_LT((point.normalized() - fine.attributes[0].values.row(0)).norm(), 1e-6);
 }
 
 TEST_F(Tool, RefusesLoopOnQuadsWithTheHint) {
@@ -146,8 +148,7 @@ TEST_F(Tool, AFailureLeavesTheOldOutput) {
 }
 
 TEST_F(Tool, SaysWhenTheToleranceWasNotReached) {
-  const Outcome result =
-      run("interpolate " + kModels + "creature.obj -o x.obj --method jacobi --max-iterations 8");
+  const Outcome result = run("interpolate " + kModels + "creature.obj -o x.obj --method jacobi --max-iterations 8");
   EXPECT_EQ(result.status, 1);
   EXPECT_NE(result.err.find("was not reached"), std::string::npos) << result.err;
 }

@@ -44,7 +44,8 @@ double harmonic_sum(int threads) {
 
 TEST(Parallel, SumsHaveTheSameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(harmonic_sum(1), harmonic_sum(2));
-  EXPECT_NEAR(harmonic_sum(1), std::log(1e6) + 0.57721566490153286 + 0.5e-6, 1e-12);  // Euler's constant; the next term is 1e-13
+  EXPECT_NEAR(harmonic_sum(1), std::log(1e6) + 0.57721566490153286 + 0.5e-6,
+              1e-12);  // Euler's constant; the next term is 1e-13
 }
 
 TEST(Parallel, NothingIsTheIdentity) {

@@ -42,6 +42,20 @@ const char* name_of(SolveMethod method) {
   }
 }
 
+/// The largest absolute value; NaN where any number is.
+double largest_number(ConstValuesRef values) {
+  return parallel_reduce(
+      values.rows(), 0.0,
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        double most = 0.0;
+        for (std::ptrdiff_t i = begin; i < end; ++i) {
+          for (std::ptrdiff_t c = 0; c < values.cols(); ++c) most = larger_or_nan(most, std::abs(values(i, c)));
+        }
+        return most;
+      },
+      larger_or_nan);
+}
+
 /// Puts a second run's report behind a first one's.
 void append(SolveReport& report, const SolveReport& next, const char* joint) {
   report.method_name += report.method_name.empty() ? next.method_name : joint + next.method_name;
@@ -207,7 +221,8 @@ struct Interpolator::Parts {
     measure_with(LimitMatrix(topology, scheme, {options.masks, result.vertex_alpha}), targets, result);
   }
 
-  /// Row by row from the limit matrix, in double. Free rows whose errors the solver measured so already are not done again.
+  /// Row by row from the limit matrix, in double. Free rows whose errors the solver measured so already are not done
+  /// again.
   void measure_with(const LimitMatrix& a, ConstValuesRef targets, Interpolant& result) const {
     const Values& control = result.control;
     const ErrorSummary& solved = result.report.errors;
@@ -267,13 +282,14 @@ Interpolant Interpolator::solve(ConstValuesRef targets, const Progress& progress
     throw Error(ErrorCode::BadShape, "targets has " + std::to_string(targets.rows()) + " rows, but the mesh has " +
                                          std::to_string(parts.topology.vertex_count()) + " vertices");
   }
-  if (!targets.allFinite()) throw Error(ErrorCode::NotFinite, "the targets hold a number that is not finite");
+  const double largest = largest_number(targets);
+  if (!std::isfinite(largest)) throw Error(ErrorCode::NotFinite, "the targets hold a number that is not finite");
   Interpolant result;
   result.control = targets;
   result.singular_components = static_cast<Index>(parts.singular.size());
   const double diagonal = bounding_diagonal(targets);
   // Rounding of the targets themselves is the floor of what can be asked for.
-  const double floor = 1e-15 * targets.cwiseAbs().maxCoeff();
+  const double floor = 1e-15 * largest;
   StopRule stop{std::max(parts.options.tolerance * diagonal, floor), parts.options.max_iterations, progress};
   parallel_for_each(static_cast<std::ptrdiff_t>(parts.curves.curves.size()),
                     [&](std::ptrdiff_t c) { solve_curve(parts.curves.curves[c], result.control); });

@@ -36,7 +36,7 @@ struct Interpolant {
   SolveReport report;      ///< of the smooth vertices
   double max_error = 0.0;  ///< max_i |A P - Q|_i, measured at the end in double, same unit
   double rms_error = 0.0;
-  std::vector<RowError> worst;    ///< up to ten, the worst first
+  std::vector<RowError> worst;       ///< up to ten, the worst first
   double max_movement = 0.0;         ///< max_i |P - Q|_i
   Index singular_components = 0;     ///< components without a surface for arbitrary targets
   std::vector<double> vertex_alpha;  ///< empty, or the alpha used at each vertex: then see ordinary_surface()

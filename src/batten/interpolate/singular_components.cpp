@@ -18,14 +18,12 @@ bool colour_region(const LimitMatrix& matrix, Index seed, Buffer<std::int8_t>& s
     const Index v = component.vertices[i];
     topology.for_each_outgoing(v, [&](Index h) {
       const Index neighbour = topology.destination(h);
-      if (!is_candidate(neighbour)) {
-        singular = false;
-      } else if (sign[neighbour] == 0) {
+      const bool candidate = is_candidate(neighbour);
+      if (candidate && sign[neighbour] == 0) {
         sign[neighbour] = static_cast<std::int8_t>(-sign[v]);
         component.vertices.push_back(neighbour);
-      } else if (sign[neighbour] == sign[v]) {
-        singular = false;
       }
+      if (!candidate || sign[neighbour] == sign[v]) singular = false;
     });
   }
   for (const Index v : component.vertices) component.sign.push_back(sign[v]);

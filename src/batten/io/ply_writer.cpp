@@ -50,6 +50,7 @@ std::vector<std::string> property_names(const Attribute& attribute) {
       name.begin(), name.end(), [](char c) { return c == ' ' || c == '\t'; }, '_');
   if (attribute.values.cols() == 1) return {name};
   std::vector<std::string> names;
+  names.reserve(static_cast<std::size_t>(attribute.values.cols()));
   for (Eigen::Index k = 0; k < attribute.values.cols(); ++k) names.push_back(name + "_" + std::to_string(k));
   return names;
 }
@@ -57,6 +58,7 @@ std::vector<std::string> property_names(const Attribute& attribute) {
 std::vector<Column> find_columns(const std::string& file_name, const Mesh& mesh) {
   std::vector<Column> columns;
   const char* const coordinates[] = {"x", "y", "z"};
+  columns.reserve(3 + mesh.attributes.size());
   for (int k = 0; k < 3; ++k) columns.push_back({coordinates[k], mesh.points.data(), k, 3, ColumnType::Double});
   for (const Attribute& attribute : mesh.attributes) {
     if (attribute.per_corner()) continue;

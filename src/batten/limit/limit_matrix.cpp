@@ -233,7 +233,12 @@ class NormalWriter {
  public:
   NormalWriter(const Topology& topology, const Scheme& scheme, ConstValuesRef control, LimitMasks masks,
                LimitNormals& normals)
-      : topology_(topology), scheme_(scheme), control_(control), masks_(masks), normals_(normals), smooth_(scheme.kind) {}
+      : topology_(topology),
+        scheme_(scheme),
+        control_(control),
+        masks_(masks),
+        normals_(normals),
+        smooth_(scheme.kind) {}
 
   void write(Index vertex, VertexRing& ring) const {
     if (topology_.is_isolated(vertex)) return;
@@ -241,7 +246,8 @@ class NormalWriter {
     if (plain && !topology_.is_boundary_vertex(vertex)) {
       gather_ring(topology_, vertex, ring);
       const auto valence = static_cast<int>(ring.edges.size());
-      if (const TangentMasks* tangents = smooth_.find(valence)) return write_sector(vertex, ring, 0, valence, *tangents, true);
+      if (const TangentMasks* tangents = smooth_.find(valence))
+        return write_sector(vertex, ring, 0, valence, *tangents, true);
     }
     const RingRules rules = ring_rules(topology_, scheme_, scheme_.alpha, vertex, ring);
     bool first = true;
@@ -254,9 +260,10 @@ class NormalWriter {
  private:
   Eigen::Vector3d tangent(Index vertex, const VertexRing& ring, const RingMask& mask) const {
     double sum[3] = {0.0, 0.0, 0.0};
-    visit_ring(topology_, vertex, ring, mask, scheme_.kind == SchemeKind::CatmullClark, [&](Index column, double weight) {
-      for (int c = 0; c < 3; ++c) sum[c] += weight * control_(column, c);
-    });
+    visit_ring(topology_, vertex, ring, mask, scheme_.kind == SchemeKind::CatmullClark,
+               [&](Index column, double weight) {
+                 for (int c = 0; c < 3; ++c) sum[c] += weight * control_(column, c);
+               });
     return {sum[0], sum[1], sum[2]};
   }
 

@@ -193,8 +193,8 @@ RingMask stationary_position(const RingRules& rules, LimitMasks choice) {
   return mask;
 }
 
-/// Averages a mask with its mirror image in the edge `crease`: rounding must not let in the odd eigenvector, which shrinks
-/// more slowly than the even one.
+/// Averages a mask with its mirror image in the edge `crease`: rounding must not let in the odd eigenvector, which
+/// shrinks more slowly than the even one.
 void make_even(const RingRules& rules, int crease, RingMask& mask) {
   const int n = rules.edge_count();
   const RingMask before = mask;

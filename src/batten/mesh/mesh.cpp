@@ -24,7 +24,9 @@ double bounding_diagonal(ConstValuesRef points) {
         }
         return part;
       },
-      [](const Box& a, const Box& b) { return Box{a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)}; });
+      [](const Box& a, const Box& b) {
+        return Box{a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)};
+      });
   return (box.high - box.low).norm();
 }
 

@@ -40,7 +40,7 @@ class ByteTable {
           static_cast<unsigned char>(std::lround(255.0F * srgb(static_cast<float>(i) / kSteps)));
   }
   unsigned char operator()(float linear) const {
-    return bytes_[static_cast<std::size_t>(std::clamp(linear, 0.0F, 1.0F) * kSteps + 0.5F)];
+    return bytes_[static_cast<std::size_t>(std::lround(std::clamp(linear, 0.0F, 1.0F) * kSteps))];
   }
 
  private:

@@ -10,7 +10,7 @@ namespace {
 constexpr float kLift = 2e-4F;     // off the surface, before a shadow ray starts
 constexpr float kSkyReach = 0.9F;  // what is farther than this hides no sky
 constexpr float kGroundSkyReach = 0.6F;
-constexpr int kFrame = 8;          // pixels at the picture's edge that are background exactly, whatever the smoothing
+constexpr int kFrame = 8;  // pixels at the picture's edge that are background exactly, whatever the smoothing
 constexpr float kEverywhere = 100.0F;  // beyond anything inside the unit sphere or near it
 
 Vec to_vec(const Color& color) { return {color[0], color[1], color[2]}; }
@@ -159,7 +159,8 @@ void Tracer::trace_square(int left, int top, Layers& layers) const {
   trace_light_rays(square);
   for (int y = 0; y < square.height; ++y) {
     for (int x = 0; x < square.width; ++x) {
-      PixelSums& sums = square.pixels[static_cast<std::size_t>(y * square.width + x)];
+      PixelSums& sums = square.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(square.width) +
+                                      static_cast<std::size_t>(x)];
       const float count = sums[Plane::Coverage];
       const float lit = sums[Plane::KeyWeight];
       const float ground = sums[Plane::GroundWeight];
@@ -192,9 +193,10 @@ void Tracer::trace_eye_rays(Square& square) const {
       valid[lane] = begin + static_cast<std::size_t>(lane) < count ? -1 : 0;
       const int pixel = square.pixel(sample, samples_);
       const Eigen::Vector2f& offset = offsets_[sample % static_cast<std::size_t>(samples_)];
+      const int column = square.left + pixel % square.width;
+      const int row = square.top + pixel / square.width;
       towards[static_cast<std::size_t>(lane)] =
-          direction(static_cast<float>(square.left + pixel % square.width) + offset.x(),
-                    static_cast<float>(square.top + pixel / square.width) + offset.y());
+          direction(static_cast<float>(column) + offset.x(), static_cast<float>(row) + offset.y());
       const Vec& way = towards[static_cast<std::size_t>(lane)];
       rays.ray.org_x[lane] = camera_.eye.x();
       rays.ray.org_y[lane] = camera_.eye.y();

@@ -86,66 +86,88 @@ KrylovReport conjugate_gradients(const LinearMap& a, const Eigen::VectorXd& scal
   return report;
 }
 
+namespace {
+
+/// The vectors of stabilised bi-conjugate gradients, and one step of it.
+class BiCgStab {
+ public:
+  BiCgStab(const LinearMap& a, const Eigen::VectorXd& diagonal, const Values& b, Values& x)
+      : a_(a), diagonal_(diagonal), b_(b), x_(x), v_(b.rows(), b.cols()), p_hat_(v_), s_hat_(v_), t_(v_) {
+    restart();
+  }
+
+  double residual_norm() const { return max_row_norm(residual_); }
+
+  /// From the true residual: rounding drives the recursive one away from it.
+  void restart() {
+    a_(x_, v_);
+    residual_ = b_ - v_;
+    shadow_ = residual_;
+    p_ = residual_;
+    rho_ = column_dots(shadow_, residual_);
+  }
+
+  /// Two products with A. False when a column came close to breaking down.
+  bool step() {
+    for_rows(rows(), [&](std::ptrdiff_t i) { p_hat_.row(i) = p_.row(i) / diagonal_[i]; });
+    a_(p_hat_, v_);
+    const Eigen::RowVectorXd alpha = ratios(rho_, column_dots(shadow_, v_));
+    for_rows(rows(), [&](std::ptrdiff_t i) {
+      for (std::ptrdiff_t c = 0; c < b_.cols(); ++c) {
+        residual_(i, c) -= alpha[c] * v_(i, c);
+        s_hat_(i, c) = residual_(i, c) / diagonal_[i];
+      }
+    });
+    a_(s_hat_, t_);
+    const Eigen::RowVectorXd omega = ratios(column_dots(t_, residual_), column_dots(t_, t_));
+    for_rows(rows(), [&](std::ptrdiff_t i) {
+      for (std::ptrdiff_t c = 0; c < b_.cols(); ++c) {
+        x_(i, c) += alpha[c] * p_hat_(i, c) + omega[c] * s_hat_(i, c);
+        residual_(i, c) -= omega[c] * t_(i, c);
+      }
+    });
+    const Eigen::RowVectorXd rho = column_dots(shadow_, residual_);
+    const Eigen::RowVectorXd beta = ratios(rho, rho_).cwiseProduct(ratios(alpha, omega));
+    rho_ = rho;
+    for_rows(rows(), [&](std::ptrdiff_t i) {
+      for (std::ptrdiff_t c = 0; c < b_.cols(); ++c) {
+        p_(i, c) = residual_(i, c) + beta[c] * (p_(i, c) - omega[c] * v_(i, c));
+      }
+    });
+    const Eigen::RowVectorXd squares = column_dots(residual_, residual_);
+    return !(rho_.array().abs() < 1e-24 * squares.array().max(1e-300)).any();
+  }
+
+ private:
+  std::ptrdiff_t rows() const { return b_.rows(); }
+
+  const LinearMap& a_;
+  const Eigen::VectorXd& diagonal_;
+  const Values& b_;
+  Values& x_;
+  Values residual_;
+  Values shadow_;
+  Values p_;
+  Values v_;
+  Values p_hat_;
+  Values s_hat_;
+  Values t_;
+  Eigen::RowVectorXd rho_;
+};
+
+}  // namespace
+
 KrylovReport bicgstab(const LinearMap& a, const Eigen::VectorXd& diagonal, const Values& b, Values& x,
                       const StopRule& stop) {
+  constexpr int kRestartEvery = 100;
   KrylovReport report;
-  const std::ptrdiff_t rows = b.rows();
-  const std::ptrdiff_t columns = b.cols();
-  Values residual(rows, columns);
-  Values v(rows, columns);
-  a(x, v);
-  residual = b - v;
-  report.residual_history.push_back(max_row_norm(residual));
-  Values shadow;
-  Values p;
-  Values p_hat(rows, columns);
-  Values s_hat(rows, columns);
-  Values t(rows, columns);
-  Eigen::RowVectorXd rho;
-  Eigen::RowVectorXd alpha;
-  Eigen::RowVectorXd omega;
-  const auto restart = [&] {
-    shadow = residual;
-    p = residual;
-    rho = column_dots(shadow, residual);
-  };
-  restart();
+  BiCgStab solver(a, diagonal, b, x);
+  report.residual_history.push_back(solver.residual_norm());
   while (!(report.residual_history.back() <= stop.tolerance) && report.iterations < stop.max_iterations) {
-    for_rows(rows, [&](std::ptrdiff_t i) { p_hat.row(i) = p.row(i) / diagonal[i]; });
-    a(p_hat, v);
-    alpha = ratios(rho, column_dots(shadow, v));
-    for_rows(rows, [&](std::ptrdiff_t i) {
-      for (std::ptrdiff_t c = 0; c < columns; ++c) {
-        residual(i, c) -= alpha[c] * v(i, c);
-        s_hat(i, c) = residual(i, c) / diagonal[i];
-      }
-    });
-    a(s_hat, t);
+    const bool sound = solver.step();
     report.iterations += 2;
-    omega = ratios(column_dots(t, residual), column_dots(t, t));
-    for_rows(rows, [&](std::ptrdiff_t i) {
-      for (std::ptrdiff_t c = 0; c < columns; ++c) {
-        x(i, c) += alpha[c] * p_hat(i, c) + omega[c] * s_hat(i, c);
-        residual(i, c) -= omega[c] * t(i, c);
-      }
-    });
-    const Eigen::RowVectorXd rho_next = column_dots(shadow, residual);
-    const Eigen::RowVectorXd beta = ratios(rho_next, rho).cwiseProduct(ratios(alpha, omega));
-    for_rows(rows, [&](std::ptrdiff_t i) {
-      for (std::ptrdiff_t c = 0; c < columns; ++c) {
-        p(i, c) = residual(i, c) + beta[c] * (p(i, c) - omega[c] * v(i, c));
-      }
-    });
-    const Eigen::RowVectorXd squares = column_dots(residual, residual);
-    rho = rho_next;
-    // Rounding drives the recursive residual away from the true one, and rho towards 0: start again from where we are.
-    const bool stale = (rho.array().abs() < 1e-24 * squares.array().max(1e-300)).any();
-    if (stale || report.iterations % 100 == 0) {
-      a(x, v);
-      residual = b - v;
-      restart();
-    }
-    report.residual_history.push_back(max_row_norm(residual));
+    if (!sound || report.iterations % kRestartEvery == 0) solver.restart();
+    report.residual_history.push_back(solver.residual_norm());
     stop.report(report.residual_history.front(), report.residual_history.back());
   }
   report.converged = report.residual_history.back() <= stop.tolerance;

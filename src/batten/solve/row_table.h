@@ -36,6 +36,12 @@ class RowTable {
     const Block& block = blocks_[row / kBlock];
     return block.columns.data() + block.begins[row % kBlock];
   }
+  /// Brings a row's entries into the cache ahead of their use.
+  void prefetch(Index row) const {
+    const Block& block = blocks_[row / kBlock];
+    __builtin_prefetch(&block.patterns[row % kBlock]);
+    __builtin_prefetch(block.columns.data() + block.begins[row % kBlock]);
+  }
   Index column_count(Index row) const { return static_cast<Index>(patterns_[pattern_of(row)].weights.size()); }
   const std::vector<RowPattern>& patterns() const { return patterns_; }
   /// In ascending order of rows.

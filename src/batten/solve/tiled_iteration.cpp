@@ -150,19 +150,25 @@ void scatter(const Tiling& tiling, const Columns& columns, std::ptrdiff_t first,
   });
 }
 
-/// Writes the residual of the tile's own rows, and returns the largest squared |b - A x| of a row.
-double measure(const Tiling& tiling, const Tile& tile, Columns& columns) {
+/// A x of the tile's own rows, in double.
+const Double4* product_of(const Tiling& tiling, const Tile& tile, const Columns& columns) {
   Scratch& scratch = scratch_for(tile);
   const Index own = tile.own_count;
   std::copy_n(columns.x.begin() + tile.first, own, scratch.x.begin());
   for (Index i = own; i < tile.ring_end[1]; ++i) scratch.x[i] = columns.x[tile.ghosts[i - own]];
   tile_product(tile, tiling.patterns, scratch.x.data(), scratch.product.data());
+  return scratch.product.data();
+}
+
+/// Writes the residual of the tile's own rows, and returns the largest squared |b - A x| of a row.
+double measure(const Tiling& tiling, const Tile& tile, Columns& columns) {
+  const Double4* product = product_of(tiling, tile, columns);
   double most = 0.0;
   for (Index s = 0; s < tile.segment_end[0]; ++s) {
     const TileSegment& segment = tile.segments[s];
     const double inverse = 1.0 / tiling.patterns[segment.pattern].diagonal;
     for (Index i = segment.first_row; i < segment.first_row + segment.row_count; ++i) {
-      const Double4 r = columns.b[tile.first + i] - scratch.product[i];
+      const Double4 r = columns.b[tile.first + i] - product[i];
       const Double4 square = r * r;
       most = larger_or_nan(most, square[0] + square[1] + square[2] + square[3]);
       columns.residual[tile.first + i] = __builtin_convertvector(r * inverse, Float4);
@@ -231,9 +237,8 @@ class Rounds {
       } else {
         schedule = stationary_schedule(options_);
       }
-      parallel_for_each(tile_count, [&](std::ptrdiff_t t) {
-        correct(tiling_, tiling_.tiles[t], schedule, steps, columns);
-      });
+      parallel_for_each(tile_count,
+                        [&](std::ptrdiff_t t) { correct(tiling_, tiling_.tiles[t], schedule, steps, columns); });
       std::swap(columns.change, columns.next_change);
       iterations += steps;
     }
@@ -291,21 +296,18 @@ struct TiledIteration::Tiles : Tiling {
 
 namespace {
 
-/// The rows' errors by the last measured residual, which is a double's to seven digits.
+/// The rows' errors |b - A x|, measured once more, in double.
 ErrorSummary summarise(const Tiling& tiling, const Columns& columns) {
   return parallel_reduce(
       static_cast<std::ptrdiff_t>(tiling.tiles.size()), ErrorSummary(),
       [&](std::ptrdiff_t t, std::ptrdiff_t /*end*/) {
         ErrorSummary summary;
         const Tile& tile = tiling.tiles[t];
-        for (Index s = 0; s < tile.segment_end[0]; ++s) {
-          const TileSegment& segment = tile.segments[s];
-          const double diagonal = tiling.patterns[segment.pattern].diagonal;
-          for (Index i = segment.first_row; i < segment.first_row + segment.row_count; ++i) {
-            const Double4 r = __builtin_convertvector(columns.residual[tile.first + i], Double4) * diagonal;
-            const Double4 square = r * r;
-            summary.add({tiling.order[tile.first + i], std::sqrt(square[0] + square[1] + square[2] + square[3])});
-          }
+        const Double4* product = product_of(tiling, tile, columns);
+        for (Index i = 0; i < tile.own_count; ++i) {
+          const Double4 r = columns.b[tile.first + i] - product[i];
+          const Double4 square = r * r;
+          summary.add({tiling.order[tile.first + i], std::sqrt(square[0] + square[1] + square[2] + square[3])});
         }
         return summary;
       },

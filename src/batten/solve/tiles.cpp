@@ -13,6 +13,7 @@ namespace {
 
 constexpr Index kTileSize = 4096;
 constexpr Index kMostLocals = 65536;
+constexpr Index kAhead = 12;  // rows to prefetch ahead: memory answers in the time of about so many
 
 /// An even number of tiles of nearly equal size, so that two threads share them well; independent of the threads.
 Index tile_count_for(Index free_count) {
@@ -46,6 +47,7 @@ Buffer<Index> grow_tiles(const RowTable& rows, Index count) {
         order.push_back(seed);
         continue;
       }
+      if (head + kAhead < order.size()) rows.prefetch(order[head + kAhead]);
       const Index row = order[head++];
       const Index* columns = rows.columns(row);
       for (Index i = 0; i < rows.column_count(row) && order.size() < target; ++i) {
@@ -104,6 +106,7 @@ class TileBuilder {
     for (int ring = 1; ring < Tile::kRings; ++ring) {
       const Index end = tile.ring_end[ring - 1];
       for (Index i = begin; i < end; ++i) {
+        if (i + kAhead < end) rows_.prefetch(order_[unknown(tile, i + kAhead)]);
         const Index row = order_[unknown(tile, i)];
         const Index* columns = rows_.columns(row);
         const Index count = rows_.column_count(row);
@@ -182,7 +185,7 @@ class TileBuilder {
 /// The spectral radius of a matrix of weights |G| is at most max_i (|G| u)_i / u_i for any positive u; power iteration
 /// on u brings the bound down to it (Collatz 1942, Wielandt 1950).
 double collatz_bound(const RowTable& rows) {
-  constexpr int kSteps = 6;
+  constexpr int kSteps = 4;
   const auto size = static_cast<std::size_t>(rows.size());
   Buffer<float> u(size, 1.0F);
   Buffer<float> next(size);
@@ -214,7 +217,7 @@ double collatz_bound(const RowTable& rows) {
 template <int M>
 void step_segment(const TileSegment& segment, Index count, const float* weights, const std::uint16_t* columns,
                   float step, float momentum, const Float4* residual, const Float4* now, Float4* previous) {
-  float local[M > 0 ? M : 1];
+  float local[std::max(M, 1)];
   for (int k = 0; k < M; ++k) local[k] = weights[k];
   const Index last = segment.first_row + segment.row_count;
   for (Index i = segment.first_row; i < last; ++i) {
