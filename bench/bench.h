@@ -62,6 +62,8 @@ double eigen_conjugate_gradients(const Subject& subject, double relative_toleran
 std::string interpolation_section();
 std::string growth_section();
 std::string process_section();
+std::string file_section();
+std::string picture_section();
 
 /// In a process of its own: interpolates a refined mesh of at least so many vertices, then exits.
 int run_large(Index vertices);

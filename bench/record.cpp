@@ -101,7 +101,8 @@ int main(int argc, char** argv) {
       "# Performance\n\nMade by `./batten bench`; medians, the rivals run in turn in the same process. "
       "Ratios count, single timings on a shared machine do not.\n\n";
   page += "Threads: " + std::to_string(batten::thread_count()) + ". " + machine() + "\n";
-  for (const auto& section : {topology_section, interpolation_section, growth_section, process_section}) {
+  for (const auto& section :
+       {topology_section, interpolation_section, growth_section, file_section, picture_section, process_section}) {
     page += section();
     std::fprintf(stderr, "%s", page.substr(page.rfind("\n## ")).c_str());
   }

@@ -26,7 +26,7 @@ struct BufferAllocator {
   BufferAllocator(const BufferAllocator<U>& /*other*/) {}
 
   T* allocate(std::size_t count) {
-    if (count > static_cast<std::size_t>(PTRDIFF_MAX) / sizeof(T)) throw std::bad_array_new_length();
+    if (count > (static_cast<std::size_t>(PTRDIFF_MAX) - kHugePage) / sizeof(T)) throw std::bad_array_new_length();
     const std::size_t bytes = count * sizeof(T);
     const bool huge = bytes >= 2 * kHugePage;
     const std::size_t alignment = huge ? kHugePage : 64;

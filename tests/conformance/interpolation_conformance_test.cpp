@@ -26,7 +26,8 @@ std::vector<Case> cases() {
   return all;
 }
 
-/// Levels until the last semi-sharp tag has faded, at least one: OpenSubdiv's limits are wrong on a control mesh's polygons.
+/// Levels until the last semi-sharp tag has faded, at least one: OpenSubdiv's limits are wrong on a control mesh's
+/// polygons.
 int levels_of(const Mesh& mesh) {
   double most = 1.0;
   for (const Crease& crease : mesh.creases) {
@@ -52,8 +53,9 @@ TEST_P(InterpolatesFor, OpenSubdivToo) {
   ASSERT_TRUE(result.report.converged) << result.report.method_name;
   EXPECT_LE(result.max_error, 1e-10 * diagonal);
   mesh.points = result.control;
-  const std::string path = (std::filesystem::temp_directory_path() /
-                            ("batten-" + std::to_string(getpid()) + GetParam().model + ".obj")).string();
+  const std::string path =
+      (std::filesystem::temp_directory_path() / ("batten-" + std::to_string(getpid()) + GetParam().model + ".obj"))
+          .string();
   write_mesh(path, mesh);
   const Mesh read = read_mesh(path);
   std::filesystem::remove(path);

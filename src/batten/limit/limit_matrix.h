@@ -119,13 +119,17 @@ void LimitMatrix::visit_row(Index vertex, const Visit& visit) const {
   }
   const Weights weights = smooth_weights(vertex, face_count(vertex));
   double centre = weights.vertex;
+  const Index uniform = topology_.uniform_face_size();
+  const double uniform_share = uniform > 0 ? weights.face / uniform : 0.0;
+  const auto share_of = [&](Index h) {
+    return uniform > 0 ? uniform_share : weights.face / topology_.face_size(topology_.face(h));
+  };
   topology_.for_each_outgoing(vertex, [&](Index h) {
     if (scheme_.kind == SchemeKind::Loop) return visit(topology_.destination(h), weights.edge);
     // The face left of h, and the one right of it, each give every corner an equal share of the centroid's weight.
-    const double share = weights.face / topology_.face_size(topology_.face(h));
+    const double share = share_of(h);
     centre += share;
-    visit(topology_.destination(h),
-          weights.edge + share + weights.face / topology_.face_size(topology_.face(topology_.twin(h))));
+    visit(topology_.destination(h), weights.edge + share + share_of(topology_.twin(h)));
     const Index last = topology_.previous(h);
     for (Index i = topology_.next(topology_.next(h)); i != last; i = topology_.next(i)) {
       visit(topology_.origin(i), share);

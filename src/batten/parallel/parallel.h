@@ -53,6 +53,18 @@ T atomic_add(T& counter, T amount) {
   return __atomic_fetch_add(&counter, amount, __ATOMIC_RELAXED);
 }
 
+/// Runs two pieces of work that do not depend on each other.
+template <typename First, typename Second>
+void parallel_both(const First& first, const Second& second) {
+  parallel_for_each(2, [&](std::ptrdiff_t i) {
+    if (i == 0) {
+      first();
+    } else {
+      second();
+    }
+  });
+}
+
 inline std::ptrdiff_t block_count(std::ptrdiff_t count, std::ptrdiff_t block = kDefaultBlock) {
   return (count + block - 1) / block;
 }

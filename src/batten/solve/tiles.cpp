@@ -249,10 +249,10 @@ StepSegment step_for(Index count) {
 Tiling make_tiling(const RowTable& rows) {
   Tiling tiling;
   tiling.patterns = rows.patterns();
-  tiling.upper_bound = collatz_bound(rows);
   const Index count = tile_count_for(rows.free_count());
   const auto begin_of = [&](std::ptrdiff_t t) { return static_cast<Index>(rows.free_count() * t / count); };
-  tiling.order = grow_tiles(rows, count);
+  // Growing is serial; the bound keeps the other threads busy meanwhile.
+  parallel_both([&] { tiling.order = grow_tiles(rows, count); }, [&] { tiling.upper_bound = collatz_bound(rows); });
   Buffer<Index> place(static_cast<std::size_t>(rows.size()), -1);
   parallel_for_each(count, [&](std::ptrdiff_t t) {
     std::stable_sort(tiling.order.begin() + begin_of(t), tiling.order.begin() + begin_of(t + 1),
