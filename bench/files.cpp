@@ -13,7 +13,8 @@
 namespace batten::bench {
 
 std::string file_section() {
-  const std::string folder = (std::filesystem::temp_directory_path() / ("batten-files-" + std::to_string(getpid()))).string();
+  const std::string folder =
+      (std::filesystem::temp_directory_path() / ("batten-files-" + std::to_string(getpid()))).string();
   std::filesystem::create_directory(folder);
   Mesh mesh;
   {
@@ -26,7 +27,8 @@ std::string file_section() {
     const std::string path = folder + "/mesh." + format.first;
     const std::vector<double> seconds = in_turn({[&] { write_mesh(path, mesh); }, [&] { read_mesh(path); }}, 5);
     const double megabytes = 1e-6 * static_cast<double>(std::filesystem::file_size(path));
-    table.add({format.first, number(megabytes), number(megabytes / seconds[1]), format.second, number(megabytes / seconds[0])});
+    table.add({format.first, number(megabytes), number(megabytes / seconds[1]), format.second,
+               number(megabytes / seconds[0])});
   }
   std::filesystem::remove_all(folder);
   return "## Files (warm page cache)\n\n" + table.text() + "\n";
@@ -38,7 +40,8 @@ std::string picture_section() {
   Scene scene;
   scene.surface = torus(1000, 500);  // 0.5 M quads, 1 M triangles
   const double seconds = in_turn({[&] { render(scene); }}, 3)[0];
-  return "## Pictures\n\n1 M triangles at 1600x1200, 2x2 samples, soft shadows: " + number(seconds) + " s (asked: 3).\n\n";
+  return "## Pictures\n\n1 M triangles at 1600x1200, 2x2 samples, soft shadows: " + number(seconds) +
+         " s (asked: 3).\n\n";
 }
 
 #else

@@ -76,7 +76,6 @@ class TileBuilder {
   bool build(Index first, Index own_count, Tile& tile) {
     tile.first = first;
     tile.own_count = own_count;
-    entries_.clear();
     const bool fits = add_rings(tile);
     if (fits) write_rows(tile);
     for (const Index ghost : tile.ghosts) local_[ghost] = -1;
@@ -102,6 +101,7 @@ class TileBuilder {
   /// Meets ring after ring; entries_ collects the columns of all rows but the last ring's, as local numbers.
   bool add_rings(Tile& tile) {
     tile.ring_end[0] = tile.own_count;
+    std::size_t used = 0;
     Index begin = 0;
     for (int ring = 1; ring < Tile::kRings; ++ring) {
       const Index end = tile.ring_end[ring - 1];
@@ -110,7 +110,9 @@ class TileBuilder {
         const Index row = order_[unknown(tile, i)];
         const Index* columns = rows_.columns(row);
         const Index count = rows_.column_count(row);
-        for (Index k = 0; k < count; ++k) entries_.push_back(local_of(tile, place_[columns[k]]));
+        if (used + count > entries_.size()) entries_.resize(2 * (used + count));
+        for (Index k = 0; k < count; ++k) entries_[used + k] = local_of(tile, place_[columns[k]]);
+        used += count;
       }
       begin = end;
       tile.ring_end[ring] = tile.own_count + static_cast<Index>(tile.ghosts.size());
@@ -144,7 +146,8 @@ class TileBuilder {
       starts_[i] = start;
       start += rows_.column_count(order_[unknown(tile, i)]);
     }
-    tile.columns.reserve(entries_.size());
+    tile.columns.resize(static_cast<std::size_t>(start));
+    std::uint16_t* column = tile.columns.data();
     Index row = 0;
     for (int ring = 0; ring < Tile::kRings; ++ring) {
       const bool has_rows = ring + 1 < Tile::kRings;
@@ -153,13 +156,14 @@ class TileBuilder {
         const Index local = sorted_[row];
         const Index shape = pattern(tile, local);
         if (fresh || tile.segments.back().pattern != shape) {
-          tile.segments.push_back({row, 0, shape, static_cast<Index>(tile.columns.size())});
+          tile.segments.push_back({row, 0, shape, static_cast<Index>(column - tile.columns.data())});
           fresh = false;
         }
         ++tile.segments.back().row_count;
         if (!has_rows) continue;
         const auto count = static_cast<Index>(rows_.patterns()[shape].weights.size());
-        for (Index k = 0; k < count; ++k) tile.columns.push_back(new_place_[entries_[starts_[local] + k]]);
+        const Index* entry = entries_.data() + starts_[local];
+        for (Index k = 0; k < count; ++k) *column++ = new_place_[entry[k]];
       }
       tile.segment_end[ring] = static_cast<Index>(tile.segments.size());
     }
