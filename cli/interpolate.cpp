@@ -88,6 +88,10 @@ int run_interpolate(const InterpolateArguments& arguments) {
   Stages stages;
   Mesh mesh = read_input(common);
   stages.finish("read");
+  if (mesh.face_count() == 0) {
+    throw Error(ErrorCode::BadArgument,
+                common.input + ": there are no faces, only points; a surface needs a mesh over its points");
+  }
   const Topology topology(mesh);
   const Scheme scheme = scheme_for(common, mesh);
   stages.finish("topology");

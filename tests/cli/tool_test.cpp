@@ -130,8 +130,10 @@ TEST_F(Tool, WrongUsageIsExitCodeTwo) {
 TEST_F(Tool, ErrorsAreOneLineWithFileAndElement) {
   write("bad.obj", "v 0 0 0\nv 1 0 zero\nf 1 2 3\n");
   write("fin.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 2 1 4\nf 1 2 5\n");
-  for (const auto& expected : {std::pair("bad.obj", "bad.obj:2"), std::pair("fin.obj", "edge (0, 1) has 3 faces"),
-                               std::pair("missing.obj", "missing.obj")}) {
+  write("points.xyz", "0 0 0\n1 0 0\n0 1 0\n");
+  for (const auto& expected :
+       {std::pair("points.xyz", "there are no faces"), std::pair("bad.obj", "bad.obj:2"),
+        std::pair("fin.obj", "edge (0, 1) has 3 faces"), std::pair("missing.obj", "missing.obj")}) {
     const Outcome result = run(std::string("interpolate ") + expected.first + " -o x.obj");
     EXPECT_EQ(result.status, 1);
     EXPECT_NE(result.err.find(expected.second), std::string::npos) << result.err;

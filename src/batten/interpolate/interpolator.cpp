@@ -121,10 +121,7 @@ struct Interpolator::Parts {
   SolveReport solve_block(ConstValuesRef targets, Values& x, const StopRule& stop) const {
     SolveReport report;
     report.converged = true;
-    if (block->free_count() == 0) {
-      report.method_name = "none needed";
-      return report;
-    }
+    if (block->free_count() == 0) return report;
     if (options.method == SolveMethod::Direct) return block->solve_direct(targets, x, stop);
     if (is_iteration(options.method)) return iterate(options.method, targets, x, stop);
     if (options.method == SolveMethod::ConjugateGradient) return block->solve_krylov(targets, x, stop);
@@ -278,10 +275,7 @@ const LimitMatrix& Interpolator::limit_matrix() const { return parts_->matrix; }
 
 Interpolant Interpolator::solve(ConstValuesRef targets, const Progress& progress) const {
   const Parts& parts = *parts_;
-  if (targets.rows() != parts.topology.vertex_count()) {
-    throw Error(ErrorCode::BadShape, "targets has " + std::to_string(targets.rows()) + " rows, but the mesh has " +
-                                         std::to_string(parts.topology.vertex_count()) + " vertices");
-  }
+  require_vertex_rows(parts.topology, targets);
   const double largest = largest_number(targets);
   if (!std::isfinite(largest)) throw Error(ErrorCode::NotFinite, "the targets hold a number that is not finite");
   Interpolant result;
@@ -300,6 +294,7 @@ Interpolant Interpolator::solve(ConstValuesRef targets, const Progress& progress
   }
   if (!result.report.converged) parts.rescue_valence_two(targets, stop, result);
   if (!parts.singular.empty()) parts.solve_singular(targets, stop, result);
+  if (result.report.method_name.empty()) result.report.method_name = "none needed";
   parts.measure(targets, result);
   return result;
 }

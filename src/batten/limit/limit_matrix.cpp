@@ -6,22 +6,11 @@
 
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
+#include "batten/refine/child_topology.h"
 
 namespace batten {
 
 namespace {
-
-void check_rows(const Topology& topology, ConstValuesRef values) {
-  if (values.rows() == topology.vertex_count()) return;
-  throw Error(ErrorCode::BadShape, "values has " + std::to_string(values.rows()) + " rows, but the mesh has " +
-                                       std::to_string(topology.vertex_count()) + " vertices");
-}
-
-void check_triangles(const Topology& topology, const Scheme& scheme) {
-  if (scheme.kind != SchemeKind::Loop || topology.uniform_face_size() == 3 || topology.face_count() == 0) return;
-  throw Error(ErrorCode::NotTriangles,
-              "Loop subdivision needs triangles; triangulate (--triangulate) or take Catmull-Clark");
-}
 
 /// Weights on the vertices around: a weight on a quad corner f_j acts through 4 c_j - v - e_j - e_{j+1}.
 template <typename Visit>
@@ -46,7 +35,7 @@ void visit_ring(const Topology& topology, Index vertex, const VertexRing& ring, 
 
 LimitMatrix::LimitMatrix(const Topology& topology, const Scheme& scheme, LimitOptions options)
     : topology_(topology), scheme_(scheme), options_(std::move(options)) {
-  check_triangles(topology, scheme);
+  require_triangles(topology, scheme);
   if (!options_.vertex_alpha.empty() && static_cast<Index>(options_.vertex_alpha.size()) != topology.vertex_count()) {
     throw Error(ErrorCode::BadShape, "vertex_alpha must have one entry a vertex");
   }
@@ -190,7 +179,7 @@ void LimitMatrix::apply_columns(const double* in, std::ptrdiff_t stride, Values&
 }
 
 Values LimitMatrix::apply(ConstValuesRef values) const {
-  check_rows(topology_, values);
+  require_vertex_rows(topology_, values);
   Values out(values.rows(), values.cols());
   if (out.size() == 0) return out;
   if (values.cols() == 3) {
@@ -292,8 +281,8 @@ class NormalWriter {
 }  // namespace
 
 LimitNormals limit_normals(const Topology& topology, const Scheme& scheme, ConstValuesRef control, LimitMasks masks) {
-  check_rows(topology, control);
-  check_triangles(topology, scheme);
+  require_vertex_rows(topology, control);
+  require_triangles(topology, scheme);
   if (control.cols() != 3) throw Error(ErrorCode::BadShape, "normals need three columns");
   LimitNormals normals{Values::Zero(topology.vertex_count(), 3), Values::Zero(topology.half_edge_count(), 3)};
   const NormalWriter writer(topology, scheme, control, masks, normals);

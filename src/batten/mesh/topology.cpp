@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "batten/error.h"
 #include "batten/mesh/check.h"
@@ -303,6 +304,12 @@ Index Topology::vertex_face_count(Index vertex) const {
   Index count = 0;
   for_each_outgoing(vertex, [&](Index /*h*/) { ++count; });
   return count;
+}
+
+void require_vertex_rows(const Topology& topology, ConstValuesRef values) {
+  if (values.rows() == topology.vertex_count()) return;
+  throw Error(ErrorCode::BadShape, "there are " + std::to_string(values.rows()) + " rows of values, but the mesh has " +
+                                       std::to_string(topology.vertex_count()) + " vertices; give one row a vertex");
 }
 
 Components connected_components(const Topology& topology) {

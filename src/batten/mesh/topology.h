@@ -101,6 +101,9 @@ class Topology {
   TopologyTables tables_;
 };
 
+/// Throws Error(BadShape) unless values has one row a vertex.
+void require_vertex_rows(const Topology& topology, ConstValuesRef values);
+
 /// Component of each vertex by faces, numbered by their lowest vertex; an isolated vertex is a component of its own.
 struct Components {
   Buffer<Index> of_vertex;

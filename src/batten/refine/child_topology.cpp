@@ -179,15 +179,18 @@ void pass_tags_on(const Topology& parent, const Scheme& scheme, TopologyTables& 
 
 }  // namespace
 
+void require_triangles(const Topology& topology, const Scheme& scheme) {
+  if (scheme.kind != SchemeKind::Loop || topology.uniform_face_size() == 3 || topology.face_count() == 0) return;
+  Index f = 0;
+  while (topology.face_size(f) == 3) ++f;
+  throw Error(ErrorCode::NotTriangles, "Loop subdivision needs triangles, but face " + std::to_string(f) + " has " +
+                                           std::to_string(topology.face_size(f)) +
+                                           " corners; triangulate (--triangulate) or take Catmull-Clark");
+}
+
 Topology child_topology(const Topology& parent, const Scheme& scheme) {
   const bool quads = scheme.kind == SchemeKind::CatmullClark;
-  if (!quads && parent.uniform_face_size() != 3 && parent.face_count() > 0) {
-    Index f = 0;
-    while (parent.face_size(f) == 3) ++f;
-    throw Error(ErrorCode::NotTriangles, "Loop subdivision needs triangles, but face " + std::to_string(f) + " has " +
-                                             std::to_string(parent.face_size(f)) +
-                                             " corners; triangulate (--triangulate) or take Catmull-Clark");
-  }
+  require_triangles(parent, scheme);
   const std::int64_t half_edges = std::int64_t{4} * parent.half_edge_count();
   if (half_edges > std::numeric_limits<Index>::max()) {
     throw Error(ErrorCode::TooLarge, "one more level would have " + std::to_string(half_edges) +

@@ -157,10 +157,7 @@ void Refinement::apply_columns(const double* in, std::ptrdiff_t stride, Values& 
 }
 
 Values Refinement::apply(ConstValuesRef values) const {
-  if (values.rows() != topology_.vertex_count()) {
-    throw Error(ErrorCode::BadShape, "values has " + std::to_string(values.rows()) + " rows, but the mesh has " +
-                                         std::to_string(topology_.vertex_count()) + " vertices");
-  }
+  require_vertex_rows(topology_, values);
   Values out(child_.vertex_count(), values.cols());
   if (out.size() == 0) return out;
   if (values.cols() == 3) {
