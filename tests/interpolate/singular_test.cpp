@@ -101,7 +101,8 @@ TEST(Singular, LeastSquaresMissesAllByTheSame) {
   for (Index v = 0; v < 8; ++v) EXPECT_NEAR(miss.row(v).norm(), expected, 1e-9);
 }
 
-TEST(Singular, OnlyTheSingularComponentTakesAlpha) {
+/// A perturbed cube with a torus beside it.
+Mesh cube_and_torus() {
   Mesh mesh = perturbed_cube();
   const Mesh other = torus(8, 6);
   const Index first = mesh.vertex_count();
@@ -111,10 +112,26 @@ TEST(Singular, OnlyTheSingularComponentTakesAlpha) {
     for (Index i = 0; i < 4; ++i) mesh.face_vertices.push_back(first + other.face_vertices[4 * f + i]);
     mesh.face_offsets.push_back(static_cast<Index>(mesh.face_vertices.size()));
   }
+  return mesh;
+}
+
+TEST(Singular, OnlyTheSingularComponentTakesAlpha) {
+  const Mesh mesh = cube_and_torus();
   const Interpolant result = solve(mesh, OnSingular::Alpha);
   EXPECT_LE(result.max_error, 1e-10 * bounding_diagonal(mesh.points));
-  EXPECT_EQ(result.vertex_alpha[0], 0.5);
-  EXPECT_EQ(result.vertex_alpha[static_cast<std::size_t>(first)], 0.0);
+  EXPECT_EQ(result.vertex_alpha.front(), 0.5);
+  EXPECT_EQ(result.vertex_alpha.back(), 0.0);
+}
+
+TEST(Singular, ASolvedComponentDoesNotHideOneThatIsNot) {
+  const Mesh mesh = cube_and_torus();
+  const Topology topology(mesh);
+  InterpolateOptions options;
+  options.method = SolveMethod::Jacobi;
+  options.max_iterations = 8;
+  const Interpolant result = Interpolator(topology, Scheme(), options).solve(mesh.points);
+  EXPECT_FALSE(result.report.converged);
+  EXPECT_GT(result.max_error, 1e-10 * bounding_diagonal(mesh.points));
 }
 
 /// Two n-gons back to back: every vertex has valence 2 and the system is indefinite or singular.

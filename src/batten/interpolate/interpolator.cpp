@@ -296,6 +296,8 @@ Interpolant Interpolator::solve(ConstValuesRef targets, const Progress& progress
   if (!parts.singular.empty()) parts.solve_singular(targets, stop, result);
   if (result.report.method_name.empty()) result.report.method_name = "none needed";
   parts.measure(targets, result);
+  // Judged by what was measured over all rows, not by what the last of several solvers thought of its part.
+  result.report.converged = result.max_error <= stop.tolerance + floor;
   return result;
 }
 

@@ -54,7 +54,8 @@ class Interpolator {
   const LimitMatrix& limit_matrix() const;
 
   /// targets: V-by-k, row i for vertex i, finite. Safe to call from several threads.
-  /// Throws Error: BadShape, NotFinite, SingularSystem, NotConverged, Cancelled.
+  /// Where the tolerance is not reached, report.converged is false and the errors say what was.
+  /// Throws Error: BadShape, NotFinite, SingularSystem, Cancelled.
   Interpolant solve(ConstValuesRef targets, const Progress& progress = {}) const;
 
  private:
