@@ -30,6 +30,7 @@ struct CommonArguments {
 struct InterpolateArguments {
   CommonArguments common;
   InterpolateOptions options;
+  std::string plot;  ///< residual against iteration
 };
 
 struct SubdivideArguments {

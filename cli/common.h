@@ -83,4 +83,7 @@ struct PictureRequest {
 /// Draws and writes; throws Error(NotAvailable) in a build without pictures.
 void draw(const Mesh& surface, const Points& markers, const Mesh& lines, const PictureRequest& request);
 
+/// Residual against iteration, with the tolerance, both in the mesh's unit. Throws Error(NotAvailable) as draw does.
+void plot_residuals(const std::string& path, const std::string& title, const SolveReport& report, double tolerance);
+
 }  // namespace batten::cli

@@ -69,6 +69,7 @@ nlohmann::ordered_json report_json(const InterpolateArguments& arguments, const 
           {"converged", result.report.converged},
           {"iterations", result.report.iterations},
           {"residual_history", result.report.residual_history},
+          {"measured_after", result.report.measured_after},
           {"max_error", result.max_error},
           {"rms_error", result.rms_error},
           {"worst_vertices", worst},
@@ -114,6 +115,10 @@ int run_interpolate(const InterpolateArguments& arguments) {
     draw(limit_mesh(drawn, scheme.after_first_step(), control.points, picture_levels(drawn)), targets, control,
          {common.picture, 1600, 1200, 2, {}, common.quiet});
     stages.finish("picture");
+  }
+  if (!arguments.plot.empty()) {
+    plot_residuals(arguments.plot, result.report.method_name, result.report, arguments.options.tolerance * diagonal);
+    stages.finish("plot");
   }
   Table table;
   table.add("mesh", mesh_text(topology));

@@ -1,6 +1,7 @@
 /// The command line: parsed here, run in the verbs' own files.
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 
 #include "batten/error.h"
@@ -39,6 +40,19 @@ void add_choice(CLI::App& verb, const std::string& name, Target& target, const N
           name, [&target, names](const std::string& word) { target = names.at(word); }, help)
       ->check(CLI::IsMember(names))
       ->option_text(words);
+}
+
+/// Refuses other names before any work is done.
+CLI::Validator has_extension(const std::vector<std::string>& extensions) {
+  return {[extensions](const std::string& name) {
+            std::string words;
+            for (const std::string& extension : extensions) {
+              if (std::filesystem::path(name).extension() == extension) return std::string();
+              words += (words.empty() ? "" : " or ") + extension;
+            }
+            return "'" + name + "' should end in " + words;
+          },
+          ""};
 }
 
 void add_input(CLI::App& verb, CommonArguments& common) {
@@ -106,6 +120,9 @@ void add_interpolate(CLI::App& app, InterpolateArguments& arguments, int& status
   add_choice(verb, "--on-singular", options.on_singular, kOnSingular,
              "where no surface passes through such points; alpha if not given");
   add_choice(verb, "--limit-masks", options.masks, kMasks, "exact at darts and valence 2, or OpenSubdiv's masks there");
+  verb.add_option("--plot", arguments.plot, "plot the residual against the iteration")
+      ->check(has_extension({".png", ".svg"}))
+      ->option_text("FILE.png|.svg");
   verb.callback([&] { status = run_interpolate(arguments); });
 }
 

@@ -149,6 +149,18 @@ TEST_F(Tool, AFailureLeavesTheOldOutput) {
   EXPECT_EQ(text_of(path("old.obj")), "# precious\n");
 }
 
+TEST_F(Tool, PlotsTheResidualWhereItWasMeasured) {
+  ASSERT_EQ(run("interpolate " + kModels + "creature.obj --plot new/plot.svg --report r.json").status, 0);
+  EXPECT_NE(text_of(path("new/plot.svg")).find("</svg>"), std::string::npos);
+  const auto report = nlohmann::json::parse(text_of(path("r.json")));
+  const auto after = report["measured_after"].get<std::vector<int>>();
+  ASSERT_EQ(after.size(), report["residual_history"].size());
+  EXPECT_EQ(after.front(), 0);
+  EXPECT_EQ(after.back(), report["iterations"].get<int>());
+  EXPECT_TRUE(std::is_sorted(after.begin(), after.end()));
+  EXPECT_EQ(run("interpolate " + kModels + "creature.obj --plot plot.jpg").status, 2);
+}
+
 TEST_F(Tool, SaysWhenTheToleranceWasNotReached) {
   const Outcome result = run("interpolate " + kModels + "creature.obj -o x.obj --method jacobi --max-iterations 8");
   EXPECT_EQ(result.status, 1);

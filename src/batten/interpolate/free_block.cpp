@@ -92,12 +92,16 @@ SolveReport FreeBlock::solve_krylov(ConstValuesRef targets, Values& x, const Sto
     const KrylovReport first = krylov;
     report.method_name = first.iterations > 0 ? "conjugate gradients (indefinite), then BiCGSTAB" : "BiCGSTAB";
     krylov = bicgstab(map(), diagonal, b, x, stop);
+    for (int& after : krylov.measured_after) after += first.iterations;
+    krylov.measured_after.insert(krylov.measured_after.begin(), first.measured_after.begin(),
+                                 first.measured_after.end());
     krylov.iterations += first.iterations;
     krylov.residual_history.insert(krylov.residual_history.begin(), first.residual_history.begin(),
                                    first.residual_history.end());
   }
   report.iterations = krylov.iterations;
   report.residual_history = krylov.residual_history;
+  report.measured_after = krylov.measured_after;
   report.converged = krylov.converged;
   report.seconds = seconds_since(start);
   return report;
@@ -150,6 +154,7 @@ SolveReport FreeBlock::solve_direct(ConstValuesRef targets, Values& x, const Sto
   }
   report.iterations = 2;
   report.residual_history = {max_row_norm(masked(Values(targets - matrix_.apply(x))))};
+  report.measured_after = {report.iterations};
   report.converged = report.residual_history.back() <= stop.tolerance;
   report.seconds = seconds_since(start);
   return report;

@@ -60,6 +60,7 @@ double largest_number(ConstValuesRef values) {
 void append(SolveReport& report, const SolveReport& next, const char* joint) {
   report.method_name += report.method_name.empty() ? next.method_name : joint + next.method_name;
   report.method = next.method;
+  for (const int after : next.measured_after) report.measured_after.push_back(report.iterations + after);
   report.iterations += next.iterations;
   report.seconds += next.seconds;
   report.converged = next.converged;

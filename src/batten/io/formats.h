@@ -1,8 +1,8 @@
 /// \file The readers and writers behind read_mesh and write_mesh. Readers throw Error; `source` outlives the call.
 #pragma once
-#include "batten/io/output.h"
 #include "batten/io/source.h"
 #include "batten/mesh/mesh.h"
+#include "batten/output.h"
 
 namespace batten::io {
 

@@ -21,10 +21,10 @@
 ///
 /// Coordinates and sharpnesses are finite; other attributes may hold NaN and come as the file has them.
 #pragma once
-#include <functional>
 #include <string>
 
 #include "batten/mesh/mesh.h"
+#include "batten/output.h"
 
 namespace batten {
 
@@ -52,11 +52,5 @@ struct WriteOptions {
 /// IndexOutOfRange, DegenerateFace (fewer than three corners), BadArgument (a name with a line end, a property twice).
 /// Cost: O(V + F); a few megabytes of memory besides the mesh.
 void write_mesh(const std::string& path, const Mesh& mesh, const WriteOptions& options = {});
-
-/// Calls write(temporary_path), then renames the temporary to path; removes the temporary when write throws or the
-/// rename fails. The temporary stands in the same folder, which is made where it is missing. A link stays, its target
-/// is replaced and keeps its permissions. Devices, pipes, "-" and /dev/stdout cannot be renamed: there write(path) is
-/// called. Throws Error(FileNotWritable).
-void write_atomically(const std::string& path, const std::function<void(const std::string&)>& write);
 
 }  // namespace batten

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "batten/buffer.h"
-#include "batten/io/output.h"
 #include "batten/mesh/mesh.h"
+#include "batten/output.h"
 #include "batten/parallel/parallel.h"
 #include "batten/types.h"
 

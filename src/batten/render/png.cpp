@@ -2,11 +2,10 @@
 
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 
 #include "batten/error.h"
-#include "batten/render/render.h"
+#include "batten/output.h"
+#include "batten/render/picture.h"
 
 namespace batten {
 namespace {
@@ -55,19 +54,6 @@ Buffer<unsigned char> encode_png(const Picture& picture) {
   return out;
 }
 
-void write_png(const std::string& path, const Picture& picture) {
-  const Buffer<unsigned char> bytes = encode_png(picture);
-  const std::string temporary = path + ".part";
-  std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
-  file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  std::error_code failure;
-  if (file.good()) std::filesystem::rename(temporary, path, failure);
-  if (!file.good() || failure) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw Error(ErrorCode::FileNotWritable, "cannot write " + path + "; check that the folder exists and is writable");
-  }
-}
+void write_png(const std::string& path, const Picture& picture) { write_bytes(path, encode_png(picture)); }
 
 }  // namespace batten

@@ -7,13 +7,11 @@
 #pragma once
 #include <array>
 #include <optional>
-#include <string>
 
 #include "batten/mesh/mesh.h"
+#include "batten/render/picture.h"
 
 namespace batten {
-
-using Color = std::array<float, 3>;  ///< linear, in [0, 1]
 
 /// What the picture shows. `surface` is drawn as it stands (refine it first); the rest is drawn with it where present.
 /// Any of them may be empty, not all. Markers and lines cast no shadow.
@@ -54,23 +52,10 @@ struct RenderOptions {
   double line_radius = 0.0;
 };
 
-/// 8-bit sRGB rows from the top, 3 bytes a pixel.
-struct Picture {
-  int width = 0;
-  int height = 0;
-  Buffer<unsigned char> pixels;
-};
-
 /// The eye sees 30 degrees in height; the shape is fitted into 85 % of the frame.
 /// Cost: 1 M triangles at 1600x1200 in 3 s on two cores; memory: 110 bytes a pixel and 200 a triangle.
 /// Throws Error: BadArgument (nothing to draw; sizes, samples or radii out of range), BadShape, IndexOutOfRange,
 /// NotFinite, Cancelled.
 Picture render(const Scene& scene, const RenderOptions& options = {}, const Progress& progress = {});
-
-/// The bytes of an 8-bit RGB PNG. Throws Error(BadShape) unless the pixels are width * height * 3.
-Buffer<unsigned char> encode_png(const Picture& picture);
-
-/// Writes encode_png's bytes through a temporary name in the same folder. Throws Error(BadShape, FileNotWritable).
-void write_png(const std::string& path, const Picture& picture);
 
 }  // namespace batten

@@ -40,6 +40,11 @@ Eigen::RowVectorXd ratios(const Eigen::RowVectorXd& a, const Eigen::RowVectorXd&
   return result;
 }
 
+void measure(KrylovReport& report, double residual) {
+  report.residual_history.push_back(residual);
+  report.measured_after.push_back(report.iterations);
+}
+
 }  // namespace
 
 KrylovReport conjugate_gradients(const LinearMap& a, const Eigen::VectorXd& scale, const Eigen::VectorXd& diagonal,
@@ -55,7 +60,7 @@ KrylovReport conjugate_gradients(const LinearMap& a, const Eigen::VectorXd& scal
   Values direction(rows, b.cols());
   for_rows(rows, [&](std::ptrdiff_t i) { direction.row(i) = step_weight[i] * residual.row(i); });
   Eigen::RowVectorXd rz = column_dots(residual, residual, &weight);
-  report.residual_history.push_back(max_row_norm(residual));
+  measure(report, max_row_norm(residual));
   while (!(report.residual_history.back() <= stop.tolerance) && report.iterations < stop.max_iterations) {
     a(direction, product);
     ++report.iterations;
@@ -79,7 +84,7 @@ KrylovReport conjugate_gradients(const LinearMap& a, const Eigen::VectorXd& scal
         direction(i, c) = step_weight[i] * residual(i, c) + beta[c] * direction(i, c);
       }
     });
-    report.residual_history.push_back(max_row_norm(residual));
+    measure(report, max_row_norm(residual));
     stop.report(report.residual_history.front(), report.residual_history.back());
   }
   report.converged = report.residual_history.back() <= stop.tolerance;
@@ -162,12 +167,12 @@ KrylovReport bicgstab(const LinearMap& a, const Eigen::VectorXd& diagonal, const
   constexpr int kRestartEvery = 100;
   KrylovReport report;
   BiCgStab solver(a, diagonal, b, x);
-  report.residual_history.push_back(solver.residual_norm());
+  measure(report, solver.residual_norm());
   while (!(report.residual_history.back() <= stop.tolerance) && report.iterations < stop.max_iterations) {
     const bool sound = solver.step();
     report.iterations += 2;
     if (!sound || report.iterations % kRestartEvery == 0) solver.restart();
-    report.residual_history.push_back(solver.residual_norm());
+    measure(report, solver.residual_norm());
     stop.report(report.residual_history.front(), report.residual_history.back());
   }
   report.converged = report.residual_history.back() <= stop.tolerance;

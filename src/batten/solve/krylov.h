@@ -9,6 +9,7 @@ namespace batten {
 struct KrylovReport {
   int iterations = 0;
   std::vector<double> residual_history;
+  std::vector<int> measured_after;  ///< iterations before each entry of residual_history
   bool converged = false;
   bool indefinite = false;  ///< conjugate gradients met a direction of no or negative curvature
 };

@@ -38,6 +38,7 @@ struct SolveReport {
   std::string method_name;               ///< for people, with what was switched to, if anything
   int iterations = 0;                    ///< applications of the matrix
   std::vector<double> residual_history;  ///< max_i |target - A x|_i, each time it was measured, the start included
+  std::vector<int> measured_after;       ///< iterations before each entry of residual_history
   double seconds = 0.0;
   bool converged = false;
   ErrorSummary errors;  ///< of the rows solved for, where the method measures them row by row; else empty

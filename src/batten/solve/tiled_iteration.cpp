@@ -225,6 +225,7 @@ class Rounds {
           tile_count, 0.0,
           [&](std::ptrdiff_t t, std::ptrdiff_t /*end*/) { return measure(tiling_, tiling_.tiles[t], columns); },
           larger_or_nan, 1)));
+      measured_after.push_back(iterations);
       const double now = history.back();
       stop_.report(history.front(), now);
       converged = now <= tolerance;
@@ -245,6 +246,7 @@ class Rounds {
   }
 
   std::vector<double> history;
+  std::vector<int> measured_after;
   int iterations = 0;
   bool converged = false;
 
@@ -349,6 +351,8 @@ SolveReport TiledIteration::solve(ConstValuesRef b, ValuesRef x, const Iteration
     report.iterations = std::max(report.iterations, rounds.iterations);
     report.converged = report.converged && rounds.converged;
     report.residual_history.insert(report.residual_history.end(), rounds.history.begin(), rounds.history.end());
+    report.measured_after.insert(report.measured_after.end(), rounds.measured_after.begin(),
+                                 rounds.measured_after.end());
   }
   if (groups == 1) report.errors = summarise(*tiles_, *columns);
   tiles_->give_back(std::move(columns));

@@ -1,4 +1,4 @@
-#include "batten/io/output.h"
+#include "batten/output.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -13,7 +13,6 @@
 #include <functional>
 
 #include "batten/error.h"
-#include "batten/io/io.h"
 
 namespace batten {
 
@@ -135,6 +134,14 @@ void write_atomically(const std::string& path, const std::function<void(const st
   fs::rename(temporary.path, target, error);
   if (error) throw_unwritable(path, error.message());
   temporary.renamed = true;
+}
+
+void write_bytes(const std::string& path, const Buffer<unsigned char>& bytes) {
+  write_atomically(path, [&](const std::string& target) {
+    io::OutputFile file(target, path);
+    file.write(bytes.data(), bytes.size());
+    file.close();
+  });
 }
 
 }  // namespace batten

@@ -1,10 +1,24 @@
-/// \file A file being written: every failure becomes an Error.
+/// \file Files that are written whole or not at all, where every failure becomes an Error.
 #pragma once
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 
-namespace batten::io {
+#include "batten/buffer.h"
+
+namespace batten {
+
+/// Calls write(temporary_path), then renames the temporary to path; removes the temporary when write throws or the
+/// rename fails. The temporary stands in the same folder, which is made where it is missing. A link stays, its target
+/// is replaced and keeps its permissions. Devices, pipes, "-" and /dev/stdout cannot be renamed: there write(path) is
+/// called. Throws Error(FileNotWritable).
+void write_atomically(const std::string& path, const std::function<void(const std::string&)>& write);
+
+/// These bytes and nothing else, by write_atomically; "-" is standard output. Throws Error(FileNotWritable).
+void write_bytes(const std::string& path, const Buffer<unsigned char>& bytes);
+
+namespace io {
 
 /// "-" and the names that stand for open descriptors (/dev/stdout, /dev/stderr, /dev/fd/N) write to those.
 /// Every member throws Error(FileNotWritable) with the system's reason; the file is truncated when opened.
@@ -30,4 +44,5 @@ class OutputFile {
 /// True where renaming over `path` would be wrong: descriptors, devices, pipes.
 bool is_special_target(const std::string& path);
 
-}  // namespace batten::io
+}  // namespace io
+}  // namespace batten

@@ -1,0 +1,37 @@
+/// What an iteration did, as a plot.
+#include <algorithm>
+
+#include "batten/error.h"
+#include "cli/common.h"
+#ifdef BATTEN_WITH_RENDER
+#include "batten/render/plot.h"
+#endif
+
+namespace batten::cli {
+
+#ifdef BATTEN_WITH_RENDER
+
+void plot_residuals(const std::string& path, const std::string& title, const SolveReport& report, double tolerance) {
+  Plot plot;
+  plot.title = title;
+  plot.x_label = "iterations";
+  plot.y_label = "largest residual, in the mesh's unit";
+  plot.log_y = true;
+  PlotLine line;
+  line.x.assign(report.measured_after.begin(), report.measured_after.end());
+  line.y = report.residual_history;
+  const double last = std::max(1, report.iterations);
+  plot.lines = {std::move(line), {"tolerance", {0.0, last}, {tolerance, tolerance}, true}};
+  write_plot(path, plot);
+}
+
+#else
+
+void plot_residuals(const std::string& /*path*/, const std::string& /*title*/, const SolveReport& /*report*/,
+                    double /*tolerance*/) {
+  throw Error(ErrorCode::NotAvailable, "this build has no plots; configure with BATTEN_WITH_RENDER=ON");
+}
+
+#endif
+
+}  // namespace batten::cli
