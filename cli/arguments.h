@@ -5,6 +5,7 @@
 #include <string>
 
 #include "batten/interpolate/interpolator.h"
+#include "batten/mesh/repair.h"
 
 namespace batten::cli {
 
@@ -22,6 +23,7 @@ struct CommonArguments {
   std::optional<TriangleRule> triangle_rule;
   double alpha = 0.0;
   bool triangulate = false;
+  bool repair = false;
   bool quiet = false;
   bool ascii = false;
   int threads = 0;
@@ -51,10 +53,16 @@ struct RenderArguments {
   bool points = false;   ///< draw the vertices' limit positions as small spheres
 };
 
+struct RepairArguments {
+  CommonArguments common;
+  RepairOptions options;
+};
+
 int run_info(const CommonArguments& arguments);
 int run_interpolate(const InterpolateArguments& arguments);
 int run_subdivide(const SubdivideArguments& arguments);
 int run_convert(const CommonArguments& arguments);
+int run_repair(const RepairArguments& arguments);
 int run_render(const RenderArguments& arguments);
 
 }  // namespace batten::cli

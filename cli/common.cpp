@@ -72,9 +72,37 @@ void ProgressBar::draw(double done) {
   drawn_ = true;
 }
 
-Mesh read_input(const CommonArguments& arguments) {
+Mesh read_input(const CommonArguments& arguments, nlohmann::ordered_json* repairs) {
   Mesh mesh = read_mesh(arguments.input, arguments.input_format);
+  if (arguments.repair) {
+    RepairResult repaired = repair(mesh);
+    Table table;
+    add_changes(table, "repaired", repaired.changes);
+    table.print(arguments);
+    if (repairs != nullptr) *repairs = repairs_json(repaired);
+    mesh = std::move(repaired.mesh);
+  }
   return arguments.triangulate ? triangulated(mesh) : mesh;
+}
+
+void add_changes(Table& table, const std::string& name, const std::vector<RepairChange>& changes) {
+  if (changes.empty()) table.add(name, "nothing to repair");
+  for (const RepairChange& change : changes) table.add(&change == &changes.front() ? name : "", change.text);
+}
+
+nlohmann::ordered_json repairs_json(const RepairResult& repaired) {
+  nlohmann::ordered_json changes = nlohmann::ordered_json::array();
+  for (const RepairChange& change : repaired.changes) {
+    changes.push_back({{"kind", repair_word(change.kind)},
+                       {"count", change.count},
+                       {"elements", change.elements},
+                       {"text", change.text}});
+  }
+  return {{"changes", changes},
+          {"vertex_sources", repaired.vertex_sources},
+          {"face_sources", repaired.face_sources},
+          {"vertex_targets", repaired.vertex_targets},
+          {"face_targets", repaired.face_targets}};
 }
 
 void write_output(const CommonArguments& arguments, const Mesh& mesh) {

@@ -50,7 +50,12 @@ class ProgressBar {
   std::chrono::steady_clock::time_point last_ = start_;
 };
 
-Mesh read_input(const CommonArguments& arguments);
+/// The file's mesh with --repair and --triangulate applied. What --repair changed is printed at once, and told to
+/// `repairs` (left null without --repair) for the report.
+Mesh read_input(const CommonArguments& arguments, nlohmann::ordered_json* repairs = nullptr);
+nlohmann::ordered_json repairs_json(const RepairResult& repaired);
+/// One row a change, the first with a name.
+void add_changes(Table& table, const std::string& name, const std::vector<RepairChange>& changes);
 void write_output(const CommonArguments& arguments, const Mesh& mesh);
 /// The mesh's own scheme, overruled by the options.
 Scheme scheme_for(const CommonArguments& arguments, const Mesh& mesh);

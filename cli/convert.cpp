@@ -6,7 +6,8 @@ namespace batten::cli {
 int run_convert(const CommonArguments& arguments) {
   const ThreadLimit limit(arguments.threads);
   Stages stages;
-  const Mesh mesh = read_input(arguments);
+  nlohmann::ordered_json repairs;
+  const Mesh mesh = read_input(arguments, &repairs);
   stages.finish("read");
   write_output(arguments, mesh);
   stages.finish("write");
@@ -20,6 +21,7 @@ int run_convert(const CommonArguments& arguments) {
                                 {"output", arguments.output},
                                 {"vertices", mesh.vertex_count()},
                                 {"faces", mesh.face_count()},
+                                {"repairs", repairs},
                                 {"seconds", stages.json()}});
   return 0;
 }

@@ -52,7 +52,7 @@ std::string singular_text(const Interpolant& result, OnSingular choice) {
 
 nlohmann::ordered_json report_json(const InterpolateArguments& arguments, const Topology& topology,
                                    const Scheme& scheme, const Interpolant& result, double diagonal,
-                                   const Stages& stages) {
+                                   const nlohmann::ordered_json& repairs, const Stages& stages) {
   nlohmann::ordered_json worst = nlohmann::ordered_json::array();
   for (const RowError& entry : result.worst) worst.push_back({{"vertex", entry.row}, {"error", entry.error}});
   return {{"verb", "interpolate"},
@@ -62,6 +62,7 @@ nlohmann::ordered_json report_json(const InterpolateArguments& arguments, const 
           {"faces", topology.face_count()},
           {"edges", topology.edge_count()},
           {"isolated_vertices", isolated_count(topology)},
+          {"repairs", repairs},
           {"diagonal", diagonal},
           {"scheme", scheme_json(scheme)},
           {"method", result.report.method_name},
@@ -87,7 +88,8 @@ int run_interpolate(const InterpolateArguments& arguments) {
   const CommonArguments& common = arguments.common;
   const ThreadLimit limit(common.threads);
   Stages stages;
-  Mesh mesh = read_input(common);
+  nlohmann::ordered_json repairs;
+  Mesh mesh = read_input(common, &repairs);
   stages.finish("read");
   if (mesh.face_count() == 0) {
     throw Error(ErrorCode::BadArgument,
@@ -129,7 +131,7 @@ int run_interpolate(const InterpolateArguments& arguments) {
   if (result.singular_components > 0) table.add("singular", singular_text(result, arguments.options.on_singular));
   table.add("time", stages.text());
   table.print(common);
-  write_json(common.report, report_json(arguments, topology, scheme, result, diagonal, stages));
+  write_json(common.report, report_json(arguments, topology, scheme, result, diagonal, repairs, stages));
   const bool least_squares =
       result.singular_components > 0 && arguments.options.on_singular == OnSingular::LeastSquares;
   if (!result.report.converged && !least_squares) {

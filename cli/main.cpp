@@ -55,6 +55,10 @@ CLI::Validator has_extension(const std::vector<std::string>& extensions) {
           ""};
 }
 
+void add_repair_flag(CLI::App& verb, CommonArguments& common) {
+  verb.add_flag("--repair", common.repair, "mend the mesh first and say what was changed (see batten repair)");
+}
+
 void add_input(CLI::App& verb, CommonArguments& common) {
   verb.add_option("INPUT", common.input, "mesh file: .obj .ply .off .stl .xyz, or - for standard input")->required();
   verb.add_option("--input-format", common.input_format, "the input's type where its name does not tell")
@@ -76,6 +80,7 @@ void add_output(CLI::App& verb, CommonArguments& common) {
 }
 
 void add_surface(CLI::App& verb, CommonArguments& common) {
+  add_repair_flag(verb, common);
   add_choice(verb, "--scheme", common.scheme, kSchemes,
              "Loop for triangles and Catmull-Clark for anything else, if not given");
   add_choice(verb, "--boundary", common.boundary, kBoundaries,
@@ -93,12 +98,29 @@ void add_picture(CLI::App& verb, CommonArguments& common) {
   verb.add_option("--picture", common.picture, "draw the surface through its points")->option_text("FILE.png");
 }
 
+void add_repair(CLI::App& app, RepairArguments& arguments, int& status) {
+  CLI::App& verb =
+      *app.add_subcommand("repair", "mend a mesh that no surface can be made of, and say what was changed");
+  add_input(verb, arguments.common);
+  add_output(verb, arguments.common);
+  CLI::Option* weld =
+      verb.add_option("--weld", arguments.options.weld,
+                      "weld open edges that lie so near, of the bounding box's diagonal; 0: equal points")
+          ->check(CLI::Range(0.0, 1.0))
+          ->capture_default_str();
+  verb.add_flag_callback(
+          "--no-weld", [&] { arguments.options.weld = -1.0; }, "weld nothing")
+      ->excludes(weld);
+  verb.callback([&] { status = run_repair(arguments); });
+}
+
 struct Verbs {
   CommonArguments info;
   InterpolateArguments interpolate;
   SubdivideArguments subdivide;
   CommonArguments convert;
   RenderArguments render;
+  RepairArguments repair;
 };
 
 void add_interpolate(CLI::App& app, InterpolateArguments& arguments, int& status) {
@@ -168,12 +190,15 @@ int run(int argc, char** argv) {
   add_interpolate(app, verbs.interpolate, status);
   add_subdivide(app, verbs.subdivide, status);
   add_render(app, verbs.render, status);
+  add_repair(app, verbs.repair, status);
   CLI::App& info = *app.add_subcommand("info", "what a mesh is made of, and whether a surface can be made of it");
   add_input(info, verbs.info);
+  add_repair_flag(info, verbs.info);
   info.callback([&] { status = run_info(verbs.info); });
   CLI::App& convert = *app.add_subcommand("convert", "read one format, write another");
   add_input(convert, verbs.convert);
   add_output(convert, verbs.convert);
+  add_repair_flag(convert, verbs.convert);
   convert.add_flag("--triangulate", verbs.convert.triangulate, "split all faces into triangles");
   convert.callback([&] { status = run_convert(verbs.convert); });
   try {
@@ -184,6 +209,21 @@ int run(int argc, char** argv) {
   return status;
 }
 
+/// The way out that only the tool knows.
+const char* hint(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::DegenerateFace:
+    case ErrorCode::RepeatedFace:
+    case ErrorCode::NonManifoldEdge:
+    case ErrorCode::NonManifoldVertex:
+    case ErrorCode::InconsistentFaces:
+    case ErrorCode::NonOrientable:
+      return " (or let --repair do it)";
+    default:
+      return "";
+  }
+}
+
 }  // namespace
 }  // namespace batten::cli
 
@@ -191,7 +231,7 @@ int main(int argc, char** argv) {
   try {
     return batten::cli::run(argc, argv);
   } catch (const batten::Error& error) {
-    std::fprintf(stderr, "batten: %s\n", error.what());
+    std::fprintf(stderr, "batten: %s%s\n", error.what(), batten::cli::hint(error.code()));
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "batten: out of memory; take a smaller mesh or fewer levels\n");
   } catch (const std::exception& error) {

@@ -8,7 +8,8 @@ int run_render(const RenderArguments& arguments) {
   const CommonArguments& common = arguments.common;
   const ThreadLimit limit(common.threads);
   Stages stages;
-  const Mesh mesh = read_input(common);
+  nlohmann::ordered_json repairs;
+  const Mesh mesh = read_input(common, &repairs);
   stages.finish("read");
   Mesh surface = mesh;
   Points markers(0, 3);
@@ -33,8 +34,11 @@ int run_render(const RenderArguments& arguments) {
   table.add("drawn", shown);
   table.add("time", stages.text());
   table.print(common);
-  write_json(common.report,
-             {{"verb", "render"}, {"input", common.input}, {"output", common.output}, {"seconds", stages.json()}});
+  write_json(common.report, {{"verb", "render"},
+                             {"input", common.input},
+                             {"output", common.output},
+                             {"repairs", repairs},
+                             {"seconds", stages.json()}});
   return 0;
 }
 

@@ -10,7 +10,8 @@ int run_subdivide(const SubdivideArguments& arguments) {
   const CommonArguments& common = arguments.common;
   const ThreadLimit limit(common.threads);
   Stages stages;
-  const Mesh mesh = read_input(common);
+  nlohmann::ordered_json repairs;
+  const Mesh mesh = read_input(common, &repairs);
   stages.finish("read");
   const Scheme scheme = scheme_for(common, mesh);
   const Topology topology = with_surface_holes(Topology(mesh), scheme);
@@ -44,6 +45,7 @@ int run_subdivide(const SubdivideArguments& arguments) {
   write_json(common.report, {{"verb", "subdivide"},
                              {"input", common.input},
                              {"output", common.output},
+                             {"repairs", repairs},
                              {"levels", arguments.levels},
                              {"limit", arguments.limit},
                              {"scheme", scheme_json(scheme)},

@@ -7,6 +7,7 @@
 #include "batten/mesh/check.h"
 #include "batten/mesh/mesh.h"
 #include "batten/mesh/primitives.h"
+#include "batten/mesh/repair.h"
 #include "batten/mesh/topology.h"
 #include "batten/mesh/triangulate.h"
 #include "batten/parallel/parallel.h"

@@ -167,6 +167,35 @@ TEST_F(Tool, SaysWhenTheToleranceWasNotReached) {
   EXPECT_NE(result.err.find("was not reached"), std::string::npos) << result.err;
 }
 
+TEST_F(Tool, RepairsAndSaysEachChange) {
+  write("fin.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 2 1 4\nf 1 2 5\n");
+  const Outcome refused = run("interpolate fin.obj -o x.obj");
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.err.find("--repair"), std::string::npos) << refused.err;
+  const Outcome result = run("repair fin.obj -o mended.obj --report r.json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("split 1 edge of more than two faces: (0, 1)"), std::string::npos) << result.out;
+  const auto repairs = nlohmann::json::parse(text_of(path("r.json")))["repairs"];
+  EXPECT_EQ(repairs["changes"][0]["kind"], "split-edges");
+  EXPECT_EQ(repairs["changes"][0]["elements"], nlohmann::json({0, 1}));
+  EXPECT_EQ(repairs["vertex_sources"].size(), static_cast<std::size_t>(read_mesh(path("mended.obj")).vertex_count()));
+  const Outcome whole = run("interpolate fin.obj -o x.obj --repair --report i.json");
+  EXPECT_EQ(whole.status, 0) << whole.err;
+  EXPECT_NE(whole.out.find("split 1 edge"), std::string::npos) << whole.out;
+  EXPECT_EQ(nlohmann::json::parse(text_of(path("i.json")))["repairs"], repairs);
+  EXPECT_EQ(run("repair mended.obj -o again.obj").out.find("split"), std::string::npos);
+  EXPECT_EQ(text_of(path("again.obj")), text_of(path("mended.obj")));
+}
+
+TEST_F(Tool, RepairWeldsAsFarAsAsked) {
+  write("seam.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0.001\nv 1 1 0\nv 0 1 0.001\nf 1 2 3\nf 4 5 6\n");
+  for (const auto& expected : {std::pair("", 6), std::pair(" --weld 0.01", 4), std::pair(" --no-weld", 6)}) {
+    ASSERT_EQ(run(std::string("repair seam.obj -o welded.obj") + expected.first).status, 0);
+    EXPECT_EQ(read_mesh(path("welded.obj")).vertex_count(), expected.second) << expected.first;
+  }
+  EXPECT_EQ(run("repair seam.obj --weld 2").status, 2);
+}
+
 TEST_F(Tool, InfoNamesWhatIsWrong) {
   const Outcome good = run("info " + kModels + "torus-knot.obj");
   EXPECT_EQ(good.status, 0);

@@ -1,0 +1,42 @@
+#include <fmt/format.h>
+
+#include "batten/io/io.h"
+#include "batten/parallel/parallel.h"
+#include "cli/common.h"
+
+namespace batten::cli {
+
+int run_repair(const RepairArguments& arguments) {
+  const CommonArguments& common = arguments.common;
+  const ThreadLimit limit(common.threads);
+  Stages stages;
+  const Mesh mesh = read_mesh(common.input, common.input_format);
+  stages.finish("read");
+  const RepairResult repaired = repair(mesh, arguments.options);
+  stages.finish("repair");
+  write_output(common, repaired.mesh);
+  stages.finish("write");
+  const auto size_of = [](const Mesh& which) {
+    return count_of(which.vertex_count(), "vertex", "vertices") + ", " + count_of(which.face_count(), "face", "faces");
+  };
+  Table table;
+  table.add("mesh", size_of(mesh));
+  add_changes(table, "repaired", repaired.changes);
+  table.add("result", size_of(repaired.mesh));
+  table.add("time", stages.text());
+  table.print(common);
+  nlohmann::ordered_json json{{"verb", "repair"},
+                              {"input", common.input},
+                              {"output", common.output},
+                              {"weld", arguments.options.weld},
+                              {"vertices_before", mesh.vertex_count()},
+                              {"faces_before", mesh.face_count()},
+                              {"vertices", repaired.mesh.vertex_count()},
+                              {"faces", repaired.mesh.face_count()}};
+  json["repairs"] = repairs_json(repaired);
+  json["seconds"] = stages.json();
+  write_json(common.report, json);
+  return 0;
+}
+
+}  // namespace batten::cli
