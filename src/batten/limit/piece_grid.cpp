@@ -1,0 +1,319 @@
+#include "batten/limit/piece_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "batten/limit/limit_matrix.h"
+#include "batten/limit/ring_limit.h"
+#include "batten/parallel/parallel.h"
+
+namespace batten {
+
+namespace {
+
+/// Point-major to weight-major with padded rows, rounded to Scalar.
+template <typename Scalar>
+Buffer<Scalar> transposed(const Buffer<double>& weights, std::ptrdiff_t per_point, std::ptrdiff_t stride) {
+  const std::ptrdiff_t points = static_cast<std::ptrdiff_t>(weights.size()) / per_point;
+  Buffer<Scalar> result(static_cast<std::size_t>(per_point * stride), Scalar(0));
+  for (std::ptrdiff_t p = 0; p < points; ++p) {
+    for (std::ptrdiff_t j = 0; j < per_point; ++j) {
+      result[j * stride + p] = static_cast<Scalar>(weights[p * per_point + j]);
+    }
+  }
+  return result;
+}
+
+/// out[i] = origin + sum over four terms of weight[j * weight_stride] * in[j * stride + i].
+template <typename Scalar>
+void combine_four(Scalar* __restrict out, Scalar origin, const Scalar* weight, std::ptrdiff_t weight_stride,
+                  const Scalar* __restrict in, std::ptrdiff_t stride, std::ptrdiff_t count) {
+  const Scalar w0 = weight[0];
+  const Scalar w1 = weight[weight_stride];
+  const Scalar w2 = weight[2 * weight_stride];
+  const Scalar w3 = weight[3 * weight_stride];
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    out[i] = origin + ((w0 * in[i] + w3 * in[3 * stride + i]) + (w1 * in[stride + i] + w2 * in[2 * stride + i]));
+  }
+}
+
+/// out[c][i] = origin[c] + sum over j of control[j * columns + first + c] * weights[j * stride + i]; out planes are
+/// `stride` apart.
+template <int C, typename Scalar>
+void combine_many(Scalar* __restrict out, const Scalar* origin, const Scalar* control, int count, int columns,
+                  const Scalar* __restrict weights, std::ptrdiff_t stride) {
+  for (std::ptrdiff_t first = 0; first < stride; first += kGridLanes) {
+    Scalar sum[C][kGridLanes] = {};
+    for (int j = 0; j < count; ++j) {
+      const Scalar* row = weights + j * stride + first;
+      for (int c = 0; c < C; ++c) {
+        const Scalar weight = control[j * columns + c];
+        for (std::ptrdiff_t i = 0; i < kGridLanes; ++i) sum[c][i] += weight * row[i];
+      }
+    }
+    for (int c = 0; c < C; ++c) {
+      for (std::ptrdiff_t i = 0; i < kGridLanes; ++i) out[c * stride + first + i] = origin[c] + sum[c][i];
+    }
+  }
+}
+
+/// Tangents of any length will do, but their products must not leave the range of Scalar.
+template <typename Scalar>
+void scale_to_one(Scalar* control, const Index* rows, int count, int columns) {
+  Scalar most = 0;
+  for (int i = 0; i < count; ++i) {
+    if (rows[i] == RegularPatch::kMissing) continue;
+    for (int c = 0; c < columns; ++c) most = std::max(most, std::abs(control[i * columns + c]));
+  }
+  if (most < std::numeric_limits<Scalar>::min()) return;
+  const Scalar scale = Scalar(1) / most;
+  for (int i = 0; i < count * columns; ++i) control[i] *= scale;
+}
+
+/// Up to this size a sum of all sixteen points takes less than two passes of four.
+constexpr int kLargestDensePatch = 16;
+
+/// Weights of the tensor product, point by point.
+Buffer<double> product(const Buffer<double>& u, const Buffer<double>& v) {
+  Buffer<double> weights;
+  weights.reserve(u.size() * v.size());
+  for (std::size_t j = 0; j < v.size(); j += 4) {
+    for (std::size_t i = 0; i < u.size(); i += 4) {
+      for (std::size_t b = 0; b < 4; ++b) {
+        for (std::size_t a = 0; a < 4; ++a) weights.push_back(v[j + b] * u[i + a]);
+      }
+    }
+  }
+  return weights;
+}
+
+/// Position or tangent of the limit at the origin of a half-edge, on that half-edge's side, as weights of vertices.
+template <typename Visit>
+void visit_limit(const Topology& topology, const Scheme& scheme, TileValue value, Index half_edge, const Visit& visit) {
+  const Index v = topology.origin(half_edge);
+  VertexRing ring;
+  const RingRules rules = ring_rules(topology, scheme, 0.0, v, ring);
+  RingMask mask;
+  if (value == TileValue::Limit) {
+    mask = limit_position_mask(rules, LimitMasks::Exact);
+  } else {
+    const auto place = std::find(ring.corners.begin(), ring.corners.end(), half_edge) - ring.corners.begin();
+    for (const RingSector& sector : limit_sectors(rules, LimitMasks::Exact)) {
+      const auto faces = static_cast<std::ptrdiff_t>(ring.corners.size());
+      if ((place - sector.first_face + faces) % faces >= sector.face_count) continue;
+      mask = value == TileValue::TangentU ? sector.tangents.first : sector.tangents.second;
+    }
+  }
+  visit(v, mask.vertex);
+  for (std::size_t i = 0; i < mask.edges.size(); ++i) visit(ring.neighbours[i], mask.edges[i]);
+  for (std::size_t i = 0; i < mask.faces.size(); ++i) {
+    visit(topology.origin(topology.next(topology.next(ring.corners[i]))), mask.faces[i]);
+  }
+}
+
+}  // namespace
+
+template <typename Scalar>
+PieceTables<Scalar>::PieceTables(const Pieces& pieces, TileValue value) : value_(value) {
+  const bool quads = pieces.scheme().kind == SchemeKind::CatmullClark;
+  for (int level = 0; level <= pieces.levels(); ++level) {
+    const int size = 1 << level;
+    Patch patch;
+    if (quads) {
+      const TileValue plain = value == TileValue::Refined ? TileValue::Refined : TileValue::Limit;
+      const auto u = curve_weights(size, value == TileValue::TangentU ? value : plain);
+      const auto v = curve_weights(size, value == TileValue::TangentV ? TileValue::TangentU : plain);
+      patch.dense = size <= kLargestDensePatch;
+      if (patch.dense) {
+        patch.stride = padded(std::ptrdiff_t{size + 1} * (size + 1));
+        patch.u = transposed<Scalar>(product(u, v), 16, patch.stride);
+      } else {
+        patch.stride = size + 1;
+        patch.u = transposed<Scalar>(u, 4, patch.stride);
+        patch.v = transposed<Scalar>(v, 4, patch.stride);
+      }
+    } else {
+      patch.dense = true;
+      patch.stride = padded(std::ptrdiff_t{size + 1} * (size + 2) / 2);
+      patch.u = transposed<Scalar>(triangle_weights(size, value), kTrianglePatchSize, patch.stride);
+    }
+    patches_.push_back(std::move(patch));
+  }
+  rings_.resize(pieces.configurations().size());
+  parallel_for_each(static_cast<std::ptrdiff_t>(rings_.size()), [&](std::ptrdiff_t i) {
+    // The points of the configuration's face 0, once, with the one-ring's unit vectors for values.
+    const Pieces::Configuration& shared = pieces.configurations()[i];
+    int levels = 0;
+    while ((Index{1} << levels) < shared.size) ++levels;
+    const Pieces own(shared.topology, pieces.scheme(), levels, 0);
+    const Index vertices = shared.topology.vertex_count();
+    const Values unit = Values::Identity(vertices, vertices);
+    const LevelValues values(own, unit);
+    const PieceTables<double> tables(own, value);
+    PieceGrid<double> grid(shared.size, vertices);
+    GridFiller<double>(own, tables, values).fill(0, grid);
+    Buffer<double> weights;
+    for (Index j = 0; j <= shared.size; ++j) {
+      for (Index x = 0; x <= shared.size - (quads ? 0 : j); ++x) {
+        for (Index k = 0; k < vertices; ++k) weights.push_back(grid.plane(k)[grid.place(x, j)]);
+      }
+    }
+    Ring& ring = rings_[i];
+    ring.vertices = vertices;
+    ring.stride = padded(static_cast<std::ptrdiff_t>(weights.size()) / vertices);
+    ring.weights = transposed<Scalar>(weights, vertices, ring.stride);
+  });
+}
+
+template <typename Scalar>
+const typename PieceTables<Scalar>::Patch& PieceTables<Scalar>::patch(Index size) const {
+  return patches_[static_cast<std::size_t>(__builtin_ctz(static_cast<unsigned>(size)))];
+}
+
+LevelValues::LevelValues(const Pieces& pieces, ConstValuesRef base) : base_(base) {
+  storage_.reserve(static_cast<std::size_t>(pieces.region_count()));
+  for (int level = 1; level <= pieces.region_count(); ++level) {
+    storage_.push_back(pieces.refine(level, at(level - 1)));
+    refined_.emplace_back(storage_.back());
+  }
+}
+
+template <typename Scalar>
+GridFiller<Scalar>::GridFiller(const Pieces& pieces, const PieceTables<Scalar>& tables, const LevelValues& values)
+    : pieces_(pieces), tables_(tables), values_(values), quads_(pieces.scheme().kind == SchemeKind::CatmullClark) {}
+
+template <typename Scalar>
+void GridFiller<Scalar>::gather(const Piece& piece, int count, int columns) {
+  const auto needed = static_cast<std::size_t>(count) * static_cast<std::size_t>(columns);
+  if (control_.size() < needed) control_.resize(needed);
+  const Index* rows = pieces_.rows(piece);
+  ConstValuesRef values = values_.at(piece.level);
+  // Positions are summed around a point of the piece, so that rounding is in proportion to the piece. The weights of a
+  // position sum to 1, those of a tangent to 0.
+  const bool position = tables_.value() == TileValue::Refined || tables_.value() == TileValue::Limit;
+  origin_.resize(2 * static_cast<std::size_t>(columns));
+  Index middle = 0;
+  while (rows[middle] == RegularPatch::kMissing) ++middle;
+  for (int c = 0; c < columns; ++c) {
+    origin_[c] = static_cast<Scalar>(values(rows[middle], c));
+    origin_[columns + c] = position ? origin_[c] : Scalar(0);
+  }
+  bool complete = true;
+  for (int i = 0; i < count; ++i) {
+    complete = complete && rows[i] != RegularPatch::kMissing;
+    if (rows[i] == RegularPatch::kMissing) continue;
+    const double* from = values.data() + rows[i] * values.outerStride();
+    for (int c = 0; c < columns; ++c) control_[i * columns + c] = static_cast<Scalar>(from[c] - origin_[c]);
+  }
+  if (!position) scale_to_one(control_.data(), rows, count, columns);
+  if (complete) return;
+  if (quads_) {
+    complete_quad_patch(rows, control_.data(), columns);
+  } else {
+    complete_triangle_patch(rows, control_.data(), columns);
+  }
+}
+
+/// Along u first: four curves; then every row is a sum of the four.
+template <typename Scalar>
+void GridFiller<Scalar>::fill_quad_patch(const Piece& piece, PieceGrid<Scalar>& grid) {
+  const int k = grid.columns;
+  gather(piece, 16, k);
+  const auto& table = tables_.patch(piece.size);
+  const std::ptrdiff_t n = table.stride;
+  if (scratch_.size() < static_cast<std::size_t>(4 * n)) scratch_.resize(static_cast<std::size_t>(4 * n));
+  for (int c = 0; c < k; ++c) {
+    for (int curve = 0; curve < 4; ++curve) {
+      combine_four(&scratch_[curve * n], Scalar(0), &control_[4 * curve * k + c], k, table.u.data(), n, n);
+    }
+    Scalar* out = grid.plane(c) + grid.place(piece.x, piece.y);
+    for (std::ptrdiff_t j = 0; j < n; ++j) {
+      combine_four(out + j * grid.width(), origin_[k + c], &table.v[j], n, scratch_.data(), n, n);
+    }
+  }
+}
+
+/// Every point by itself, a sum over the ring.
+template <typename Scalar>
+void GridFiller<Scalar>::fill_points(const Piece& piece, const Scalar* weights, std::ptrdiff_t stride, int count,
+                                     PieceGrid<Scalar>& grid) {
+  const int k = grid.columns;
+  gather(piece, count, k);
+  if (scratch_.size() < static_cast<std::size_t>(3 * stride)) scratch_.resize(static_cast<std::size_t>(3 * stride));
+  const std::ptrdiff_t sign = piece.turned ? -1 : 1;
+  const bool whole = quads_ && piece.size == grid.steps;  // then the grid's planes are the rows of weights
+  for (int first = 0; first < k;) {
+    const int columns = k - first >= 3 ? 3 : 1;
+    if (columns == 3) {
+      combine_many<3>(whole ? grid.plane(first) : scratch_.data(), &origin_[k + first], &control_[first], count, k,
+                      weights, stride);
+    } else {
+      combine_many<1>(whole ? grid.plane(first) : scratch_.data(), &origin_[k + first], &control_[first], count, k,
+                      weights, stride);
+    }
+    if (whole) {
+      first += columns;
+      continue;
+    }
+    for (int c = 0; c < columns; ++c, ++first) {
+      Scalar* out = grid.plane(first) + grid.place(piece.x, piece.y);
+      const Scalar* from = scratch_.data() + c * stride;
+      for (Index j = 0; j <= piece.size; ++j, out += sign * grid.width()) {
+        const Index length = piece.size + 1 - (quads_ ? 0 : j);
+        for (Index i = 0; i < length; ++i) out[sign * i] = from[i];
+        from += length;
+      }
+    }
+  }
+}
+
+template <typename Scalar>
+void GridFiller<Scalar>::fill_cell(const Piece& piece, PieceGrid<Scalar>& grid) {
+  static constexpr int kQuad[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  static constexpr int kTriangle[3][2] = {{0, 0}, {1, 0}, {0, 1}};
+  const int sign = piece.turned ? -1 : 1;
+  const Topology& topology = pieces_.topology(piece.level);
+  ConstValuesRef values = values_.at(piece.level);
+  Index half_edge = piece.half_edge;
+  const Index* rows = pieces_.rows(piece);
+  for (int corner = 0; corner < (quads_ ? 4 : 3); ++corner) {
+    const int* step = quads_ ? kQuad[corner] : kTriangle[corner];
+    const std::ptrdiff_t place = grid.place(piece.x + sign * step[0], piece.y + sign * step[1]);
+    if (tables_.value() == TileValue::Refined) {
+      for (int c = 0; c < grid.columns; ++c) grid.plane(c)[place] = static_cast<Scalar>(values(rows[corner], c));
+    } else {
+      Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(grid.columns);
+      visit_limit(topology, pieces_.scheme(), tables_.value(), half_edge,
+                  [&](Index vertex, double weight) { sum += weight * values.row(vertex); });
+      for (int c = 0; c < grid.columns; ++c) grid.plane(c)[place] = static_cast<Scalar>(sum[c]);
+    }
+    half_edge = topology.next(half_edge);
+  }
+}
+
+template <typename Scalar>
+void GridFiller<Scalar>::fill(Index face, PieceGrid<Scalar>& grid) {
+  for (const Piece* piece = pieces_.begin(face); piece != pieces_.end(face); ++piece) {
+    if (piece->kind == Piece::Kind::Cell) {
+      fill_cell(*piece, grid);
+    } else if (piece->kind == Piece::Kind::Configuration) {
+      const auto& ring = tables_.ring(piece->configuration);
+      fill_points(*piece, ring.weights.data(), ring.stride, ring.vertices, grid);
+    } else {
+      const auto& patch = tables_.patch(piece->size);
+      if (patch.dense) {
+        fill_points(*piece, patch.u.data(), patch.stride, quads_ ? 16 : kTrianglePatchSize, grid);
+      } else {
+        fill_quad_patch(*piece, grid);
+      }
+    }
+  }
+}
+
+template class PieceTables<float>;
+template class PieceTables<double>;
+template class GridFiller<float>;
+template class GridFiller<double>;
+
+}  // namespace batten

@@ -1,0 +1,116 @@
+#include "batten/refine/face_ring.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "batten/refine/vertex_blend.h"
+
+namespace batten {
+
+namespace {
+
+void append(std::string& key, float number) {
+  char bytes[sizeof(float)];
+  std::memcpy(bytes, &number, sizeof(float));
+  key.append(bytes, sizeof(float));
+}
+
+}  // namespace
+
+bool FaceRing::add_face(const Topology& topology, Index half_edge) {
+  const Index face = topology.face(half_edge);
+  if (std::find(faces_.begin(), faces_.end(), face) != faces_.end()) return true;
+  faces_.push_back(face);
+  starts_.push_back(half_edge);
+  Index h = half_edge;
+  for (Index c = 0; c < topology.face_size(face); ++c, h = topology.next(h)) {
+    const Index v = topology.origin(h);
+    const auto place = std::find(vertices_.begin(), vertices_.end(), v);
+    key_.push_back(static_cast<char>(place - vertices_.begin()));
+    if (place == vertices_.end()) vertices_.push_back(v);
+  }
+  return vertices_.size() <= kMostVertices;
+}
+
+bool FaceRing::gather(const Topology& topology, const Scheme& scheme, Index half_edge) {
+  vertices_.clear();
+  starts_.clear();
+  faces_.clear();
+  key_.clear();
+  if (!add_face(topology, half_edge)) return false;
+  const Index size = topology.face_size(topology.face(half_edge));
+  Index side = half_edge;
+  for (Index c = 0; c < size; ++c, side = topology.next(side)) {
+    const Index v = topology.origin(side);
+    append(key_, vertex_sharpness(topology, scheme, v));
+    Index h = side;
+    while (true) {  // counter-clockwise until around, or to the boundary
+      const Index p = topology.previous(h);
+      append(key_, topology.edge_sharpness(topology.edge(p)));
+      h = topology.twin(p);
+      if (h < 0 || h == side) break;
+      if (!add_face(topology, h)) return false;
+    }
+    key_.push_back(h == side ? 'c' : 'o');
+    if (h == side) continue;
+    for (Index t = topology.twin(side); t >= 0;) {  // then clockwise
+      h = topology.next(t);
+      append(key_, topology.edge_sharpness(topology.edge(h)));
+      if (!add_face(topology, h)) return false;
+      t = topology.twin(h);
+    }
+    key_.push_back('.');
+  }
+  return true;
+}
+
+Cutting cut_out(const Topology& from, const Buffer<Index>& half_edges) {
+  TopologyTables tables;
+  Buffer<Index> rows;
+  const Index corners = from.face_size(from.face(half_edges.front()));
+  tables.uniform_face_size = corners;
+  const std::size_t count = half_edges.size() * static_cast<std::size_t>(corners);
+  Buffer<Index> new_half_edge(static_cast<std::size_t>(from.half_edge_count()), -1);
+  tables.face_offsets.resize(half_edges.size() + 1);
+  tables.origins.resize(count);
+  tables.twins.resize(count);
+  tables.faces.resize(count);
+  tables.edges.resize(count);
+  for (std::size_t f = 0; f < half_edges.size(); ++f) {
+    tables.face_offsets[f] = static_cast<Index>(f) * corners;
+    Index old = half_edges[f];
+    for (Index c = 0; c < corners; ++c, old = from.next(old)) new_half_edge[old] = static_cast<Index>(f) * corners + c;
+  }
+  tables.face_offsets[half_edges.size()] = static_cast<Index>(count);
+  Buffer<Index> new_vertex(static_cast<std::size_t>(from.vertex_count()), -1);
+  for (std::size_t f = 0; f < half_edges.size(); ++f) {
+    Index old = half_edges[f];
+    for (Index c = 0; c < corners; ++c, old = from.next(old)) {
+      const Index h = static_cast<Index>(f) * corners + c;
+      const Index v = from.origin(old);
+      if (new_vertex[v] < 0) {
+        new_vertex[v] = static_cast<Index>(rows.size());
+        rows.push_back(v);
+        // The fan's own start where it is here; otherwise the vertex lies on the cut, and any half-edge does.
+        const Index start = new_half_edge[from.vertex_half_edge(v)];
+        tables.vertex_half_edges.push_back(start >= 0 ? start : h);
+        if (from.has_corners()) tables.vertex_sharpness.push_back(from.vertex_sharpness(v));
+      }
+      const Index old_twin = from.twin(old);
+      tables.origins[h] = new_vertex[v];
+      tables.twins[h] = old_twin < 0 ? -1 : new_half_edge[old_twin];
+      tables.faces[h] = static_cast<Index>(f);
+      if (tables.twins[h] >= 0 && tables.twins[h] < h) {
+        tables.edges[h] = tables.edges[tables.twins[h]];
+      } else {
+        tables.edges[h] = static_cast<Index>(tables.edge_half_edges.size());
+        tables.edge_half_edges.push_back(h);
+        if (from.has_creases()) tables.edge_sharpness.push_back(from.tables().edge_sharpness[from.edge(old)]);
+      }
+    }
+  }
+  tables.vertex_count = static_cast<Index>(rows.size());
+  return {Topology::from_tables(std::move(tables)), std::move(rows)};
+}
+
+}  // namespace batten

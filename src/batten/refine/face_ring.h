@@ -1,0 +1,46 @@
+/// \file A face with its one-ring, cut out and described so that equal surroundings are recognised.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "batten/mesh/topology.h"
+#include "batten/scheme/scheme.h"
+
+namespace batten {
+
+/// Lists the one-ring of a face, from one of its half-edges on, in an order that depends on the surroundings alone.
+class FaceRing {
+ public:
+  /// Beyond so many vertices two faces are not compared; rare, and tables for them would be large.
+  static constexpr std::size_t kMostVertices = 64;
+
+  /// False where the ring has more than kMostVertices.
+  bool gather(const Topology& topology, const Scheme& scheme, Index half_edge);
+
+  const Buffer<Index>& vertices() const { return vertices_; }  ///< the face's own first, from the half-edge's origin on
+  const Buffer<Index>& half_edges() const {
+    return starts_;
+  }  ///< one a face, the given one first: where its list starts
+  /// Equal for two faces exactly when refinement does the same to both for any number of levels: connectivity and the
+  /// sharpness of all edges at the face's vertices.
+  const std::string& key() const { return key_; }
+
+ private:
+  bool add_face(const Topology& topology, Index half_edge);
+
+  Buffer<Index> vertices_;
+  Buffer<Index> starts_;
+  Buffer<Index> faces_;
+  std::string key_;
+};
+
+/// A part of a topology. Where it was cut, its rules are not the surface's.
+struct Cutting {
+  Topology topology;
+  Buffer<Index> rows;  ///< the vertex that each of its vertices was
+};
+
+/// The faces of the given half-edges, in this order, each from its half-edge on. O(size of `from`).
+Cutting cut_out(const Topology& from, const Buffer<Index>& half_edges);
+
+}  // namespace batten

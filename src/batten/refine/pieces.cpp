@@ -1,0 +1,271 @@
+#include "batten/refine/pieces.h"
+
+#include <algorithm>
+#include <numeric>
+#include <string_view>
+#include <unordered_map>
+
+#include "batten/parallel/parallel.h"
+
+namespace batten {
+
+namespace {
+
+constexpr int kQuadTurns[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+constexpr int kTriangleTurns[6][2] = {{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}};
+
+/// A configuration's table costs about as much as refining so many faces.
+constexpr std::size_t kFewestSharing = 16;
+
+/// First half-edges of the faces, then of those that share a vertex with one of them.
+Buffer<Index> with_one_ring(const Topology& topology, const Buffer<Index>& faces) {
+  Buffer<std::uint8_t> taken(static_cast<std::size_t>(topology.face_count()), 0);
+  for (const Index f : faces) taken[f] = 1;
+  Buffer<Index> all;
+  all.reserve(2 * faces.size());
+  for (const Index f : faces) all.push_back(topology.face_begin(f));
+  for (const Index f : faces) {
+    for (Index h = topology.face_begin(f); h < topology.face_end(f); ++h) {
+      topology.for_each_outgoing(topology.origin(h), [&](Index out) {
+        const Index neighbour = topology.face(out);
+        if (taken[neighbour] != 0) return;
+        taken[neighbour] = 1;
+        all.push_back(topology.face_begin(neighbour));
+      });
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+Pieces::Pieces(const Topology& base, const Scheme& scheme, int levels) : base_(base), scheme_(scheme), levels_(levels) {
+  Buffer<Index> faces(static_cast<std::size_t>(base.face_count()));
+  std::iota(faces.begin(), faces.end(), 0);
+  build(std::move(faces), true);
+}
+
+Pieces::Pieces(const Topology& base, const Scheme& scheme, int levels, Index face)
+    : base_(base), scheme_(scheme), levels_(levels) {
+  build({face}, false);
+}
+
+void Pieces::build(Buffer<Index> faces, bool share) {
+  std::vector<Site> sites;
+  sites.reserve(faces.size());
+  for (const Index f : faces) sites.push_back({f, 0, 0, 0});
+  for (int level = 0; !faces.empty(); ++level) {
+    const Buffer<std::uint8_t> taken = take(level, faces, sites, share);
+    Buffer<Index> rest;
+    std::vector<Site> rest_sites;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      if (taken[i] != 0) continue;
+      rest.push_back(faces[i]);
+      rest_sites.push_back(sites[i]);
+    }
+    if (rest.empty()) break;
+    const Topology& from = topology(level);
+    regions_.push_back(std::make_unique<Region>(cut_out(from, with_one_ring(from, rest)), scheme_));
+    sites = child_sites(rest_sites, Index{1} << (levels_ - level - 1));
+    faces.resize(sites.size());  // the children of the first faces are the first children
+    std::iota(faces.begin(), faces.end(), 0);
+  }
+  sort_pieces();
+}
+
+/// The corner of a site from which the piece's frame starts; sets where it stands.
+Index Pieces::aligned_corner(const Site& site, Index size, Piece& piece) const {
+  piece.face = site.face;
+  piece.size = size;
+  piece.turned = false;
+  if (scheme_.kind == SchemeKind::CatmullClark) {
+    const Index corner = (4 - site.turn) % 4;
+    const int* u = kQuadTurns[site.turn];
+    const int* v = kQuadTurns[(site.turn + 1) % 4];
+    piece.x = site.x + size * ((corner == 1 || corner == 2 ? u[0] : 0) + (corner >= 2 ? v[0] : 0));
+    piece.y = site.y + size * ((corner == 1 || corner == 2 ? u[1] : 0) + (corner >= 2 ? v[1] : 0));
+    return corner;
+  }
+  // From corner c the first half-edge runs in direction turn + 2 c: 0 upright, 3 turned.
+  piece.turned = site.turn % 2 == 1;
+  Index corner = 0;
+  while ((site.turn + 2 * corner) % 6 != (piece.turned ? 3 : 0)) ++corner;
+  const int* u = kTriangleTurns[(site.turn + (corner == 2 ? 1 : 0)) % 6];
+  piece.x = site.x + (corner == 0 ? 0 : size * u[0]);
+  piece.y = site.y + (corner == 0 ? 0 : size * u[1]);
+  return corner;
+}
+
+/// Makes pieces of what needs no more refinement: regular faces, cells, and with `share` frequent configurations.
+/// Returns one flag a face.
+Buffer<std::uint8_t> Pieces::take(int level, const Buffer<Index>& faces, const std::vector<Site>& sites, bool share) {
+  const Topology& from = topology(level);
+  const bool last = level == levels_;
+  const Index corners = scheme_.kind == SchemeKind::Loop ? 3 : 4;
+  const std::size_t patch_size = scheme_.kind == SchemeKind::Loop ? kTrianglePatchSize : 16;
+  const std::size_t row_count = last ? static_cast<std::size_t>(corners) : patch_size;
+  const std::size_t first_row = rows_.size();
+  rows_.resize(first_row + row_count * faces.size());
+  const PatchFinder finder(from, scheme_);
+  Buffer<Piece> found(faces.size());
+  Buffer<std::uint8_t> taken(faces.size());
+  parallel_for(static_cast<std::ptrdiff_t>(faces.size()), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    RegularPatch patch;
+    for (std::ptrdiff_t i = begin; i < end; ++i) {
+      Piece& piece = found[i];
+      const Index first = from.face_begin(faces[i]);
+      const Index corner = aligned_corner(sites[i], Index{1} << (levels_ - level), piece);
+      piece.level = static_cast<std::uint8_t>(level);
+      piece.half_edge = first + corner;
+      piece.configuration = -1;
+      piece.first_row = first_row + row_count * static_cast<std::size_t>(i);
+      Index* rows = rows_.data() + piece.first_row;
+      taken[i] = 1;
+      if (last) {
+        piece.kind = Piece::Kind::Cell;
+        for (Index c = 0; c < corners; ++c) rows[c] = from.origin(first + (corner + c) % corners);
+      } else if (finder.find(piece.half_edge, patch)) {
+        piece.kind = Piece::Kind::Patch;
+        std::copy_n(patch.rows.begin(), row_count, rows);
+      } else {
+        piece.kind = Piece::Kind::Configuration;
+        taken[i] = 0;
+      }
+    }
+  });
+  if (share) share_configurations(from, found, taken);
+  append_taken(found, taken);
+  return taken;
+}
+
+void Pieces::append_taken(const Buffer<Piece>& found, const Buffer<std::uint8_t>& taken) {
+  const auto count = static_cast<std::ptrdiff_t>(found.size());
+  Buffer<std::size_t> starts(static_cast<std::size_t>(block_count(count)) + 1, pieces_.size());
+  parallel_for(count, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    starts[begin / kDefaultBlock + 1] =
+        static_cast<std::size_t>(std::count(&taken[begin], &taken[begin] + (end - begin), 1));
+  });
+  std::partial_sum(starts.begin(), starts.end(), starts.begin());
+  pieces_.resize(starts.back());
+  parallel_for(count, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    std::size_t next = starts[begin / kDefaultBlock];
+    for (std::ptrdiff_t i = begin; i < end; ++i) {
+      if (taken[i] != 0) pieces_[next++] = found[i];
+    }
+  });
+}
+
+/// Takes the irregular faces whose surroundings occur often enough.
+void Pieces::share_configurations(const Topology& topology, Buffer<Piece>& found, Buffer<std::uint8_t>& taken) {
+  Buffer<std::size_t> irregular;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (taken[i] == 0) irregular.push_back(i);
+  }
+  // A block's keys and rows stand one after the other, where the views point to.
+  struct Block {
+    std::string keys;
+    Buffer<Index> rows;
+  };
+  struct Candidate {
+    std::size_t key_start = 0;
+    std::size_t row_start = 0;
+    std::size_t key_size = 0;
+    std::size_t row_count = 0;
+  };
+  constexpr std::ptrdiff_t kBlock = 512;
+  const auto count = static_cast<std::ptrdiff_t>(irregular.size());
+  std::vector<Block> blocks(static_cast<std::size_t>(block_count(count, kBlock)));
+  Buffer<Candidate> candidates(irregular.size());
+  parallel_for(
+      count,
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        FaceRing ring;
+        Block& block = blocks[begin / kBlock];
+        for (std::ptrdiff_t i = begin; i < end; ++i) {
+          candidates[i] = {block.keys.size(), block.rows.size(), 0, 0};
+          if (!ring.gather(topology, scheme_, found[irregular[i]].half_edge)) continue;
+          candidates[i].key_size = ring.key().size();
+          candidates[i].row_count = ring.vertices().size();
+          block.keys += ring.key();
+          block.rows.insert(block.rows.end(), ring.vertices().begin(), ring.vertices().end());
+        }
+      },
+      kBlock);
+  const auto key_of = [&](std::ptrdiff_t i) {
+    return std::string_view(blocks[i / kBlock].keys).substr(candidates[i].key_start, candidates[i].key_size);
+  };
+  struct Group {
+    std::size_t count = 0;
+    std::int32_t configuration = -1;
+  };
+  std::unordered_map<std::string_view, Group> groups;
+  std::vector<Group*> group_of(irregular.size());
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    if (candidates[i].key_size == 0) continue;
+    group_of[i] = &groups[key_of(i)];
+    ++group_of[i]->count;
+  }
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    Group* group = group_of[i];
+    if (group == nullptr || group->count < kFewestSharing) continue;
+    Piece& piece = found[irregular[i]];
+    if (group->configuration < 0) {
+      group->configuration = static_cast<std::int32_t>(configurations_.size());
+      FaceRing ring;
+      ring.gather(topology, scheme_, piece.half_edge);
+      configurations_.push_back({cut_out(topology, ring.half_edges()).topology, piece.size});
+    }
+    piece.configuration = group->configuration;
+    piece.first_row = rows_.size();
+    const Index* rows = blocks[i / kBlock].rows.data() + candidates[i].row_start;
+    rows_.insert(rows_.end(), rows, rows + candidates[i].row_count);
+    taken[irregular[i]] = 1;
+  }
+}
+
+std::vector<Pieces::Site> Pieces::child_sites(const std::vector<Site>& sites, Index size) const {
+  const bool quads = scheme_.kind == SchemeKind::CatmullClark;
+  const int turns = quads ? 4 : 6;
+  const auto direction = [&](int turn) { return quads ? kQuadTurns[turn % turns] : kTriangleTurns[turn % turns]; };
+  std::vector<Site> children;
+  children.reserve(4 * sites.size());
+  for (const Site& site : sites) {
+    Site corner = site;
+    for (int c = 0; c < (quads ? 4 : 3); ++c) {
+      corner.turn = static_cast<std::uint8_t>((site.turn + (quads ? c : 2 * c)) % turns);
+      children.push_back(corner);
+      corner.x += 2 * size * direction(corner.turn)[0];
+      corner.y += 2 * size * direction(corner.turn)[1];
+    }
+    if (quads) continue;
+    const int* u = direction(site.turn);
+    children.push_back(
+        {site.face, site.x + size * u[0], site.y + size * u[1], static_cast<std::uint8_t>((site.turn + 1) % turns)});
+  }
+  return children;
+}
+
+/// Face by face, each face's pieces in the order they were found.
+void Pieces::sort_pieces() {
+  first_piece_.assign(static_cast<std::size_t>(base_.face_count()) + 1, 0);
+  const auto by_face = [](const Piece& a, const Piece& b) { return a.face < b.face; };
+  for (const Piece& piece : pieces_) ++first_piece_[static_cast<std::size_t>(piece.face) + 1];
+  std::partial_sum(first_piece_.begin(), first_piece_.end(), first_piece_.begin());
+  if (std::is_sorted(pieces_.begin(), pieces_.end(), by_face)) return;
+  Buffer<std::size_t> next(first_piece_.begin(), first_piece_.end() - 1);
+  Buffer<Piece> sorted(pieces_.size());
+  for (const Piece& piece : pieces_) sorted[next[piece.face]++] = piece;
+  pieces_ = std::move(sorted);
+}
+
+Values Pieces::refine(int level, ConstValuesRef before) const {
+  const Region& region = *regions_[level - 1];
+  const Buffer<Index>& rows = region.cutting.rows;
+  Values values(static_cast<std::ptrdiff_t>(rows.size()), before.cols());
+  parallel_for(values.rows(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (std::ptrdiff_t i = begin; i < end; ++i) values.row(i) = before.row(rows[i]);
+  });
+  return region.step.apply(values);
+}
+
+}  // namespace batten
