@@ -11,6 +11,7 @@
 #include "batten/io/io.h"
 #include "batten/mesh/triangulate.h"
 #include "batten/parallel/parallel.h"
+#include "cli/signals.h"
 
 namespace batten::cli {
 
@@ -44,22 +45,27 @@ void Table::print(const CommonArguments& arguments) const {
   for (const auto& row : rows_) fmt::print(out, "{:<{}}  {}\n", row.first, width, row.second);
 }
 
+/// After the first half second ten times a second, whatever the stage: short stages of a long run show too.
+static bool bar_is_due() {
+  using Clock = std::chrono::steady_clock;
+  static Clock::time_point next = Clock::now() + std::chrono::milliseconds(500);
+  const Clock::time_point now = Clock::now();
+  if (now < next) return false;
+  next = now + std::chrono::milliseconds(100);
+  return true;
+}
+
 ProgressBar::ProgressBar(std::string label, bool quiet)
-    : label_(std::move(label)), enabled_(!quiet && isatty(STDERR_FILENO) != 0) {}
+    : label_(std::move(label)), drawable_(!quiet && isatty(STDERR_FILENO) != 0) {}
 
 ProgressBar::~ProgressBar() {
   if (drawn_) fmt::print(stderr, "\r\033[K");
 }
 
 Progress ProgressBar::callback() {
-  if (!enabled_) return {};
   return [this](double done) {
-    const auto now = std::chrono::steady_clock::now();
-    if (now - start_ > std::chrono::milliseconds(500) && now - last_ > std::chrono::milliseconds(100)) {
-      last_ = now;
-      draw(done);
-    }
-    return true;
+    if (drawable_ && bar_is_due()) draw(done);
+    return !stop_asked();
   };
 }
 
@@ -73,7 +79,7 @@ void ProgressBar::draw(double done) {
 }
 
 Mesh read_input(const CommonArguments& arguments, nlohmann::ordered_json* repairs) {
-  Mesh mesh = read_mesh(arguments.input, arguments.input_format);
+  Mesh mesh = read_mesh(arguments.input, arguments.input_format, ProgressBar("reading", arguments.quiet).callback());
   if (arguments.repair) {
     RepairResult repaired = repair(mesh);
     Table table;
@@ -107,7 +113,8 @@ nlohmann::ordered_json repairs_json(const RepairResult& repaired) {
 
 void write_output(const CommonArguments& arguments, const Mesh& mesh) {
   if (arguments.output.empty()) return;
-  write_mesh(arguments.output, mesh, {arguments.output_format, !arguments.ascii});
+  ProgressBar bar("writing", arguments.quiet);
+  write_mesh(arguments.output, mesh, {arguments.output_format, !arguments.ascii}, bar.callback());
 }
 
 Scheme scheme_for(const CommonArguments& arguments, const Mesh& mesh) {

@@ -34,20 +34,20 @@ class Table {
   std::vector<std::pair<std::string, std::string>> rows_;
 };
 
-/// A bar on stderr when that is a terminal, after half a second.
+/// Watches one stage: cancels it when a signal asked to stop (signals.h), and draws a bar on stderr where that is a
+/// terminal and the tool has run for half a second. Every call that takes a progress callback gets one of these.
 class ProgressBar {
  public:
   ProgressBar(std::string label, bool quiet);
   ~ProgressBar();
+  /// Never empty; the bar must outlive it.
   Progress callback();
 
  private:
   void draw(double done);
   std::string label_;
-  bool enabled_;
+  bool drawable_;
   bool drawn_ = false;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::chrono::steady_clock::time_point last_ = start_;
 };
 
 /// The file's mesh with --repair and --triangulate applied. What --repair changed is printed at once, and told to
@@ -72,7 +72,7 @@ nlohmann::ordered_json scheme_json(const Scheme& scheme);
 Index isolated_count(const Topology& topology);
 
 /// The control values refined `levels` times and moved to the limit, as a mesh; hole faces left out.
-Mesh limit_mesh(const Topology& topology, const Scheme& scheme, ConstValuesRef control, int levels);
+Mesh limit_mesh(const Topology& topology, const Scheme& scheme, ConstValuesRef control, int levels, bool quiet);
 
 /// Levels that make some 400,000 faces, but at most 5.
 int picture_levels(const Topology& topology);

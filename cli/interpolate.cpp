@@ -8,8 +8,10 @@ namespace batten::cli {
 namespace {
 
 /// The control mesh that goes to the file: the input with new points, or the refined mesh where alpha acted.
-Mesh control_mesh(Mesh mesh, const Topology& topology, const Scheme& scheme, const Interpolant& interpolant) {
-  RefinedSurface surface = ordinary_surface(topology, scheme, interpolant);
+Mesh control_mesh(Mesh mesh, const Topology& topology, const Scheme& scheme, const Interpolant& interpolant,
+                  bool quiet) {
+  ProgressBar bar("refining", quiet);
+  RefinedSurface surface = ordinary_surface(topology, scheme, interpolant, bar.callback());
   const bool same = surface.topology.vertex_count() == topology.vertex_count();
   Mesh control = same ? std::move(mesh) : mesh_from_topology(surface.topology);
   control.points = surface.values;
@@ -22,10 +24,12 @@ Mesh control_mesh(Mesh mesh, const Topology& topology, const Scheme& scheme, con
 
 /// Colours and other numbers at the vertices are interpolated too; normals of the input are not those of control
 /// points.
-void interpolate_attributes(Mesh& mesh, const Interpolator& interpolator) {
+void interpolate_attributes(Mesh& mesh, const Interpolator& interpolator, bool quiet) {
   std::erase_if(mesh.attributes, [](const Attribute& attribute) { return attribute.name == "normal"; });
   for (Attribute& attribute : mesh.attributes) {
-    if (!attribute.per_corner()) attribute.values = interpolator.solve(attribute.values).control;
+    if (attribute.per_corner()) continue;
+    ProgressBar bar("interpolating " + attribute.name, quiet);
+    attribute.values = interpolator.solve(attribute.values, bar.callback()).control;
   }
 }
 
@@ -95,26 +99,28 @@ int run_interpolate(const InterpolateArguments& arguments) {
     throw Error(ErrorCode::BadArgument,
                 common.input + ": there are no faces, only points; a surface needs a mesh over its points");
   }
-  const Topology topology(mesh);
+  const Topology topology(mesh, ProgressBar("connecting", common.quiet).callback());
   const Scheme scheme = scheme_for(common, mesh);
   stages.finish("topology");
   const double diagonal = bounding_diagonal(mesh.points);
   const Points targets = common.picture.empty() ? Points(0, 3) : mesh.points;
   Interpolant result;
   {
-    const Interpolator interpolator(topology, scheme, arguments.options);
+    const Interpolator interpolator(topology, scheme, arguments.options,
+                                    ProgressBar("building", common.quiet).callback());
     stages.finish("build");
     ProgressBar bar("interpolating", common.quiet);
     result = interpolator.solve(mesh.points, bar.callback());
-    interpolate_attributes(mesh, interpolator);
+    interpolate_attributes(mesh, interpolator, common.quiet);
   }
   stages.finish("solve");
-  const Mesh control = control_mesh(std::move(mesh), topology, scheme, result);
+  const Mesh control = control_mesh(std::move(mesh), topology, scheme, result, common.quiet);
   write_output(common, control);
   stages.finish("write");
   if (!common.picture.empty()) {
-    const Topology drawn(control);
-    draw(limit_mesh(drawn, scheme.after_first_step(), control.points, picture_levels(drawn)), targets, control,
+    const Topology drawn(control, ProgressBar("connecting", common.quiet).callback());
+    const Scheme after = scheme.after_first_step();
+    draw(limit_mesh(drawn, after, control.points, picture_levels(drawn), common.quiet), targets, control,
          {common.picture, 1600, 1200, 2, {}, common.quiet});
     stages.finish("picture");
   }

@@ -1,12 +1,15 @@
 /// The command line: parsed here, run in the verbs' own files.
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <map>
 
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
 #include "cli/arguments.h"
+#include "cli/signals.h"
 
 namespace batten::cli {
 namespace {
@@ -228,10 +231,18 @@ const char* hint(ErrorCode code) {
 }  // namespace batten::cli
 
 int main(int argc, char** argv) {
+  batten::cli::handle_signals();
   try {
-    return batten::cli::run(argc, argv);
+    const int status = batten::cli::run(argc, argv);
+    // What was printed may still wait in the buffer; a closed pipe or a full disk shows here.
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
+    std::fprintf(stderr, "batten: standard output: cannot be written: %s\n", std::strerror(errno));
   } catch (const batten::Error& error) {
-    std::fprintf(stderr, "batten: %s%s\n", error.what(), batten::cli::hint(error.code()));
+    if (error.code() == batten::ErrorCode::Cancelled) {
+      std::fprintf(stderr, "batten: interrupted; unfinished files are as they were\n");
+    } else {
+      std::fprintf(stderr, "batten: %s%s\n", error.what(), batten::cli::hint(error.code()));
+    }
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "batten: out of memory; take a smaller mesh or fewer levels\n");
   } catch (const std::exception& error) {

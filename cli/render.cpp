@@ -15,10 +15,10 @@ int run_render(const RenderArguments& arguments) {
   Points markers(0, 3);
   std::string shown = "as it is";
   if (!arguments.flat && mesh.face_count() > 0) {
-    const Topology topology(mesh);
+    const Topology topology(mesh, ProgressBar("connecting", common.quiet).callback());
     const Scheme scheme = scheme_for(common, mesh);
     const int levels = arguments.levels >= 0 ? arguments.levels : picture_levels(topology);
-    surface = limit_mesh(topology, scheme, mesh.points, levels);
+    surface = limit_mesh(topology, scheme, mesh.points, levels, common.quiet);
     if (arguments.points) markers = LimitMatrix(topology, scheme).apply(mesh.points);
     shown = scheme_text(scheme) + ", " + count_of(levels, "level", "levels") + ", on the limit surface";
   } else if (arguments.points) {

@@ -14,9 +14,11 @@ int run_subdivide(const SubdivideArguments& arguments) {
   const Mesh mesh = read_input(common, &repairs);
   stages.finish("read");
   const Scheme scheme = scheme_for(common, mesh);
-  const Topology topology = with_surface_holes(Topology(mesh), scheme);
+  const Topology topology =
+      with_surface_holes(Topology(mesh, ProgressBar("connecting", common.quiet).callback()), scheme);
   stages.finish("topology");
-  RefinedSurface surface = refine(topology, scheme, mesh.points, arguments.levels);
+  ProgressBar bar("refining", common.quiet);
+  RefinedSurface surface = refine(topology, scheme, mesh.points, arguments.levels, bar.callback());
   const Scheme last = arguments.levels > 0 ? scheme.after_first_step() : scheme;
   Mesh refined = mesh_from_topology(surface.topology);
   refined.boundary = scheme.boundary;
@@ -24,11 +26,12 @@ int run_subdivide(const SubdivideArguments& arguments) {
   for (const Attribute& attribute : mesh.attributes) {
     if (attribute.per_corner() || attribute.name == "normal") continue;
     refined.attributes.push_back(
-        {attribute.name, refine(topology, scheme, attribute.values, arguments.levels).values, {}});
+        {attribute.name, refine(topology, scheme, attribute.values, arguments.levels, bar.callback()).values, {}});
   }
   if (arguments.limit) {
-    refined.points = LimitMatrix(surface.topology, last).apply(surface.values);
-    refined.attributes.push_back({"normal", limit_normals(surface.topology, last, surface.values).vertices, {}});
+    refined.points = LimitMatrix(surface.topology, last, {}, bar.callback()).apply(surface.values, bar.callback());
+    const LimitNormals normals = limit_normals(surface.topology, last, surface.values, {}, bar.callback());
+    refined.attributes.push_back({"normal", normals.vertices, {}});
   } else {
     refined.points = surface.values;
   }

@@ -11,11 +11,12 @@
 
 namespace batten::cli {
 
-Mesh limit_mesh(const Topology& topology, const Scheme& scheme, ConstValuesRef control, int levels) {
-  const RefinedSurface refined = refine(with_surface_holes(topology, scheme), scheme, control, levels);
+Mesh limit_mesh(const Topology& topology, const Scheme& scheme, ConstValuesRef control, int levels, bool quiet) {
+  ProgressBar bar("refining", quiet);
+  const RefinedSurface refined = refine(with_surface_holes(topology, scheme), scheme, control, levels, bar.callback());
   const Scheme last = levels > 0 ? scheme.after_first_step() : scheme;
   Mesh mesh;
-  mesh.points = LimitMatrix(refined.topology, last).apply(refined.values);
+  mesh.points = LimitMatrix(refined.topology, last, {}, bar.callback()).apply(refined.values, bar.callback());
   mesh.face_vertices.reserve(refined.topology.tables().origins.size());
   for (Index f = 0; f < refined.topology.face_count(); ++f) {
     if (refined.topology.is_hole(f)) continue;

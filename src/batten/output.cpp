@@ -13,6 +13,7 @@
 #include <functional>
 
 #include "batten/error.h"
+#include "batten/progress.h"
 
 namespace batten {
 
@@ -72,7 +73,8 @@ struct TemporaryFile {
 
 namespace io {
 
-OutputFile::OutputFile(const std::string& path, const std::string& name) : name_(name.empty() ? path : name) {
+OutputFile::OutputFile(const std::string& path, const std::string& name, const Progress& progress)
+    : name_(name.empty() ? path : name), progress_(progress) {
   const int known = named_descriptor(path);
   do {
     descriptor_ = known >= 0 ? ::dup(known) : ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
@@ -84,12 +86,19 @@ OutputFile::~OutputFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
+void OutputFile::report() const {
+  const double done = static_cast<double>(rows_) / static_cast<double>(std::max<std::ptrdiff_t>(expected_rows_, 1));
+  report_progress(progress_, std::min(done, 1.0));
+}
+
 void OutputFile::write(const void* bytes, std::size_t count) {
-  // Linux writes at most 2 GiB a call.
-  constexpr std::size_t kMost = std::size_t{1} << 30;
+  // Short pieces, so that a slow disk does not keep a user waiting who cancels.
+  constexpr std::size_t kMost = std::size_t{1} << 23;
   const char* at = static_cast<const char*>(bytes);
   while (count > 0) {
+    report();
     const ssize_t written = ::write(descriptor_, at, std::min(count, kMost));
+    // A signal may be the user's wish to stop while a pipe is full: ask again.
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) throw_unwritable(name_, std::strerror(errno));
     at += written;

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "batten/buffer.h"
+#include "batten/types.h"
 
 namespace batten {
 
@@ -21,23 +22,32 @@ void write_bytes(const std::string& path, const Buffer<unsigned char>& bytes);
 namespace io {
 
 /// "-" and the names that stand for open descriptors (/dev/stdout, /dev/stderr, /dev/fd/N) write to those.
-/// Every member throws Error(FileNotWritable) with the system's reason; the file is truncated when opened.
+/// Every member throws Error(FileNotWritable) with the system's reason, and write() Error(Cancelled); the file is
+/// truncated when opened.
 class OutputFile {
  public:
-  /// `name` is what messages call the file; empty: the path.
-  explicit OutputFile(const std::string& path, const std::string& name = "");
+  /// `name` is what messages call the file; empty: the path. write() asks `progress` whether to go on.
+  explicit OutputFile(const std::string& path, const std::string& name = "", const Progress& progress = {});
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
   const std::string& name() const { return name_; }
+  /// For the progress: how many rows all calls of write_rows (text_output.h) will have.
+  void expect_rows(std::ptrdiff_t count) { expected_rows_ = count; }
+  void rows_written(std::ptrdiff_t count) { rows_ += count; }
   void write(const void* bytes, std::size_t count);
   void write(std::string_view text) { write(text.data(), text.size()); }
   /// A full disk may show only here.
   void close();
 
  private:
+  void report() const;
+
   std::string name_;
+  Progress progress_;
+  std::ptrdiff_t expected_rows_ = 0;
+  std::ptrdiff_t rows_ = 0;
   int descriptor_ = -1;
 };
 

@@ -31,8 +31,8 @@ enum class TriangleRule { Catmark, Smooth };
 /// A sharpness of 10 or more is infinite, as in OpenSubdiv.
 inline constexpr float kInfiniteSharpness = 10.0F;
 
-/// Called now and then with the done fraction in [0, 1]; return false to cancel (the operation throws
-/// Error(Cancelled)).
+/// Called now and then, by the thread that called the operation, with the done fraction in [0, 1]; return false to
+/// cancel (the operation throws Error(Cancelled) within a fraction of a second).
 using Progress = std::function<bool(double)>;
 
 }  // namespace batten

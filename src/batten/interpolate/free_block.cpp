@@ -130,6 +130,7 @@ SolveReport FreeBlock::solve_direct(ConstValuesRef targets, Values& x, const Sto
       }
     });
   }
+  stop.report(1.0, 1.0);
   SparseMatrix a(count, count);
   a.setFromTriplets(entries.begin(), entries.end());
   std::vector<Eigen::Triplet<double>>().swap(entries);
@@ -149,6 +150,7 @@ SolveReport FreeBlock::solve_direct(ConstValuesRef targets, Values& x, const Sto
     report.method_name = "sparse LU";
     solve_refined(factors, a, b, solution);
   }
+  stop.report(1.0, 1.0);
   for (Index v = 0; v < size(); ++v) {
     if (place[v] >= 0) x.row(v) = solution.row(place[v]);
   }

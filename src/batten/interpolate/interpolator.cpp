@@ -81,13 +81,15 @@ struct Interpolator::Parts {
   std::unique_ptr<FreeBlock> block;
   std::unique_ptr<TiledIteration> tiles;
 
-  Parts(const Topology& topology_in, const Scheme& scheme_in, const InterpolateOptions& options_in)
+  Parts(const Topology& topology_in, const Scheme& scheme_in, const InterpolateOptions& options_in,
+        const Progress& progress)
       : topology(topology_in),
         scheme(scheme_in),
         options(options_in),
-        matrix(topology_in, scheme_in, {options_in.masks, {}}),
+        matrix(topology_in, scheme_in, {options_in.masks, {}}, progress_within(progress, 0.0, 0.2)),
         curves(find_crease_curves(matrix)),
         singular(find_singular_components(matrix)) {
+    report_progress(progress, 0.25);
     Buffer<std::uint8_t> free(static_cast<std::size_t>(topology.vertex_count()));
     for (Index v = 0; v < topology.vertex_count(); ++v) {
       const LimitRow row = matrix.row_kind(v);
@@ -98,7 +100,7 @@ struct Interpolator::Parts {
       for (const Index v : component.vertices) free[v] = 0;
     }
     block = std::make_unique<FreeBlock>(matrix, std::move(free));
-    if (wants_tiles()) tiles = std::make_unique<TiledIteration>(*block);
+    if (wants_tiles()) tiles = std::make_unique<TiledIteration>(*block, progress_within(progress, 0.3, 1.0));
     if (tiles != nullptr && options.method == SolveMethod::Auto && tiles->overlap() > kMostOverlap) tiles.reset();
   }
 
@@ -263,8 +265,9 @@ struct Interpolator::Parts {
   }
 };
 
-Interpolator::Interpolator(const Topology& topology, const Scheme& scheme, const InterpolateOptions& options)
-    : parts_(std::make_unique<Parts>(topology, scheme, options)) {
+Interpolator::Interpolator(const Topology& topology, const Scheme& scheme, const InterpolateOptions& options,
+                           const Progress& progress)
+    : parts_(std::make_unique<Parts>(topology, scheme, options, progress)) {
   if (!(options.tolerance > 0.0)) throw Error(ErrorCode::BadArgument, "the tolerance must be positive");
   if (!(options.omega > 0.0)) throw Error(ErrorCode::BadArgument, "omega must be positive");
 }
@@ -302,18 +305,20 @@ Interpolant Interpolator::solve(ConstValuesRef targets, const Progress& progress
   return result;
 }
 
-RefinedSurface ordinary_surface(const Topology& topology, const Scheme& scheme, const Interpolant& interpolant) {
+RefinedSurface ordinary_surface(const Topology& topology, const Scheme& scheme, const Interpolant& interpolant,
+                                const Progress& progress) {
   if (interpolant.vertex_alpha.empty() && scheme.alpha == 0.0) return {topology, interpolant.control};
-  Refinement step(topology, scheme, interpolant.vertex_alpha);
-  Values refined = step.apply(interpolant.control);
+  Refinement step(topology, scheme, interpolant.vertex_alpha, progress_within(progress, 0.0, 0.5));
+  Values refined = step.apply(interpolant.control, progress_within(progress, 0.5, 1.0));
   return {std::move(step).child(), std::move(refined)};
 }
 
-Mesh interpolate(const Mesh& mesh, const InterpolateOptions& options) {
-  const Topology topology(mesh);
+Mesh interpolate(const Mesh& mesh, const InterpolateOptions& options, const Progress& progress) {
+  const Topology topology(mesh, progress_within(progress, 0.0, 0.3));
   const Scheme scheme = choose_scheme(mesh);
-  const Interpolant interpolant = Interpolator(topology, scheme, options).solve(mesh.points);
-  const RefinedSurface surface = ordinary_surface(topology, scheme, interpolant);
+  const Interpolator interpolator(topology, scheme, options, progress_within(progress, 0.3, 0.7));
+  const Interpolant interpolant = interpolator.solve(mesh.points, progress_within(progress, 0.7, 0.9));
+  const RefinedSurface surface = ordinary_surface(topology, scheme, interpolant, progress_within(progress, 0.9, 1.0));
   if (surface.topology.vertex_count() == mesh.vertex_count()) {
     Mesh control = mesh;
     control.points = surface.values;

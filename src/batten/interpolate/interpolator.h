@@ -46,8 +46,9 @@ struct Interpolant {
 /// Cost: build O(H); solve about 30 passes over the mesh in cache for 1e-10, whatever its size (docs/decisions/002).
 class Interpolator {
  public:
-  /// Throws Error(NotTriangles, BadArgument).
-  Interpolator(const Topology& topology, const Scheme& scheme, const InterpolateOptions& options = {});
+  /// Throws Error(NotTriangles, BadArgument, Cancelled).
+  Interpolator(const Topology& topology, const Scheme& scheme, const InterpolateOptions& options = {},
+               const Progress& progress = {});
   ~Interpolator();
   Interpolator(Interpolator&&) noexcept;
 
@@ -65,9 +66,10 @@ class Interpolator {
 
 /// The interpolant as an ordinary Catmull-Clark or Loop surface: itself, or refined once where alpha acted.
 /// Rows 0 .. V-1 are the even vertices; their limit positions are the targets.
-RefinedSurface ordinary_surface(const Topology& topology, const Scheme& scheme, const Interpolant& interpolant);
+RefinedSurface ordinary_surface(const Topology& topology, const Scheme& scheme, const Interpolant& interpolant,
+                                const Progress& progress = {});
 
 /// Once, from a mesh to the mesh of its interpolating surface's control points.
-Mesh interpolate(const Mesh& mesh, const InterpolateOptions& options = {});
+Mesh interpolate(const Mesh& mesh, const InterpolateOptions& options = {}, const Progress& progress = {});
 
 }  // namespace batten

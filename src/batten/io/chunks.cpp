@@ -36,16 +36,17 @@ std::vector<std::string_view> cut_lines(std::string_view text, std::size_t chunk
   return pieces;
 }
 
-Rows find_rows(std::string_view text, std::size_t chunk_bytes, char separator) {
-  const std::vector<std::string_view> pieces = cut_lines(text, chunk_bytes);
+Rows find_rows(const Source& source, std::string_view text, char separator) {
+  const std::vector<std::string_view> pieces = cut_lines(text, source.chunk_bytes);
   std::vector<std::ptrdiff_t> counts(pieces.size(), 0);
-  for_each_chunk(pieces.size(), [&](std::size_t i) {
+  const auto count = [&](std::size_t i) {
     Scanner scanner(pieces[i], separator);
     while (!scanner.at_end()) {
       counts[i] += scanner.next_token() ? 1 : 0;
       scanner.skip_line();
     }
-  });
+  };
+  for_each_chunk(pieces.size(), count, progress_within(source.progress, 0.0, 0.33));
   Rows rows;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     rows.chunks.push_back({pieces[i], rows.count});

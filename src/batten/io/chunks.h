@@ -14,15 +14,16 @@ std::vector<std::string_view> cut_lines(std::string_view text, std::size_t chunk
 
 /// Calls body(i) for i in [0, count) in parallel, and throws the Fault of the lowest i that has one.
 template <typename Body>
-void for_each_chunk(std::size_t count, const Body& body) {
+void for_each_chunk(std::size_t count, const Body& body, const Progress& progress) {
   std::vector<std::optional<Fault>> faults(count);
-  parallel_for_each(static_cast<std::ptrdiff_t>(count), [&](std::ptrdiff_t i) {
+  const auto guarded = [&](std::ptrdiff_t i) {
     try {
       body(static_cast<std::size_t>(i));
     } catch (Fault& fault) {
       faults[i] = std::move(fault);
     }
-  });
+  };
+  parallel_for_each(static_cast<std::ptrdiff_t>(count), guarded, progress);
   for (const std::optional<Fault>& fault : faults) {
     if (fault) throw Fault(*fault);
   }
@@ -38,20 +39,22 @@ struct Rows {
   std::ptrdiff_t count = 0;
 };
 
-/// Cuts the text and counts its rows.
-Rows find_rows(std::string_view text, std::size_t chunk_bytes, char separator = ' ');
+/// Cuts the source, or the part of it that is given, and counts its rows: the first third of the source's progress.
+Rows find_rows(const Source& source, std::string_view text, char separator = ' ');
 
-/// Calls body(scanner, row, chunk) at the start of each row; the body must take every token of the line.
+/// Calls body(scanner, row, chunk) at the start of each row; the body must take every token of the line. The rest of
+/// the source's progress.
 template <typename Body>
-void for_each_row(const Rows& rows, const Body& body, char separator = ' ') {
-  for_each_chunk(rows.chunks.size(), [&](std::size_t chunk) {
+void for_each_row(const Source& source, const Rows& rows, const Body& body, char separator = ' ') {
+  const auto read = [&](std::size_t chunk) {
     Scanner scanner(rows.chunks[chunk].text, separator);
     std::ptrdiff_t row = rows.chunks[chunk].first_row;
     while (!scanner.at_end()) {
       if (scanner.next_token()) body(scanner, row++, chunk);
       scanner.finish_line();
     }
-  });
+  };
+  for_each_chunk(rows.chunks.size(), read, progress_within(source.progress, 0.33, 1.0));
 }
 
 }  // namespace batten::io

@@ -6,6 +6,7 @@
 #include "batten/error.h"
 #include "batten/io/formats.h"
 #include "batten/io/write_check.h"
+#include "batten/progress.h"
 
 namespace batten {
 
@@ -49,18 +50,20 @@ std::string_view without_byte_order_mark(std::string_view bytes) {
 
 }  // namespace
 
-Mesh read_mesh(const std::string& path, const std::string& format) {
+Mesh read_mesh(const std::string& path, const std::string& format, const Progress& progress) {
+  constexpr double kFetched = 0.2;  // of the time
   const Format& known = find_format(path, format);
-  const io::InputFile file(path);
-  return known.read({path == "-" ? "standard input" : path, without_byte_order_mark(file.bytes())});
+  const io::InputFile file(path, progress_within(progress, 0.0, kFetched));
+  return known.read({path == "-" ? "standard input" : path, without_byte_order_mark(file.bytes()), io::kChunkBytes,
+                     progress_within(progress, kFetched, 1.0)});
 }
 
-void write_mesh(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
+void write_mesh(const std::string& path, const Mesh& mesh, const WriteOptions& options, const Progress& progress) {
   const Format& known = find_format(path, options.format);
   const std::string name = path == "-" ? "standard output" : path;
   io::require_writable(name, mesh);
   write_atomically(path, [&](const std::string& target) {
-    io::OutputFile file(target, name);
+    io::OutputFile file(target, name, progress);
     known.write(file, mesh, options.binary ? io::Encoding::Binary : io::Encoding::Text);
     file.close();
   });

@@ -30,10 +30,10 @@ namespace batten {
 
 /// Reads a mesh (XYZ: points without faces). "-" reads standard input and needs a format; pipes are read too.
 /// format: one of the extensions; empty: by the extension of the path.
-/// Throws Error(FileNotReadable, UnknownFormat, BadFile, IndexOutOfRange, NotFinite, TooLarge).
-/// Cost: O(bytes), two cores: OBJ 800 MB/s, binary PLY 1500 MB/s, binary STL 200 MB/s. Memory: the mesh and the file,
-/// which is mapped; OBJ twice the mesh; from any file, however wrong, less than 64 times its size.
-Mesh read_mesh(const std::string& path, const std::string& format = "");
+/// Throws Error(FileNotReadable, UnknownFormat, BadFile, IndexOutOfRange, NotFinite, TooLarge, Cancelled).
+/// Cost: O(bytes), two cores: OBJ 800 MB/s, binary PLY 1500 MB/s, binary STL 200 MB/s. Memory: the mesh and the file;
+/// OBJ twice the mesh and the file; from any file, however wrong, less than 64 times its size.
+Mesh read_mesh(const std::string& path, const std::string& format = "", const Progress& progress = {});
 
 struct WriteOptions {
   std::string format;  ///< "obj", "ply", "off", "stl", "xyz"; empty: by the extension
@@ -48,9 +48,10 @@ struct WriteOptions {
 ///   in bytes as float, which may bring close vertices together
 ///
 /// The old file stays as it was when anything fails (write_atomically). "-" writes to standard output.
-/// Throws Error(FileNotWritable, UnknownFormat), and for a mesh that no reader would take NotFinite, BadShape,
-/// IndexOutOfRange, DegenerateFace (fewer than three corners), BadArgument (a name with a line end, a property twice).
-/// Cost: O(V + F); a few megabytes of memory besides the mesh.
-void write_mesh(const std::string& path, const Mesh& mesh, const WriteOptions& options = {});
+/// Throws Error(FileNotWritable, UnknownFormat, Cancelled), and for a mesh that no reader would take NotFinite,
+/// BadShape, IndexOutOfRange, DegenerateFace (fewer than three corners), BadArgument (a name with a line end, a
+/// property twice). Cost: O(V + F); a few megabytes of memory besides the mesh.
+void write_mesh(const std::string& path, const Mesh& mesh, const WriteOptions& options = {},
+                const Progress& progress = {});
 
 }  // namespace batten

@@ -64,8 +64,8 @@ struct List {
 };
 
 /// Each piece reports its first line with an index out of range.
-void resolve_corners(const Texts& texts, Pieces& pieces, const std::vector<List>& lists) {
-  for_each_chunk(pieces.size(), [&](std::size_t i) {
+void resolve_corners(const Source& source, const Texts& texts, Pieces& pieces, const std::vector<List>& lists) {
+  const auto resolve = [&](std::size_t i) {
     Index first_bad_face = std::numeric_limits<Index>::max();
     const List* bad_list = nullptr;
     for (const List& list : lists) {
@@ -79,7 +79,8 @@ void resolve_corners(const Texts& texts, Pieces& pieces, const std::vector<List>
     throw Fault{find_obj_face(texts[i], first_bad_face), ErrorCode::IndexOutOfRange,
                 std::string("a face corner names a `") + bad_list->name + "` that does not exist; there are " +
                     std::to_string(bad_list->first.back())};
-  });
+  };
+  for_each_chunk(pieces.size(), resolve, progress_within(source.progress, 0.9, 1.0));
 }
 
 void join_vertices(const Source& source, Pieces& pieces, const std::vector<Index>& first, Mesh& mesh) {
@@ -183,7 +184,7 @@ Mesh join(const Source& source, const Texts& texts, Pieces& pieces) {
   if (vertices.back() == 0) {
     throw Error(ErrorCode::BadFile, source.name + ": no vertices (`v x y z`) in it; is this an OBJ file?");
   }
-  resolve_corners(texts, pieces,
+  resolve_corners(source, texts, pieces,
                   {{&ObjPiece::vertex_rows, vertices, "v", false},
                    {&ObjPiece::uv_rows, uvs, "vt", true},
                    {&ObjPiece::normal_rows, normals, "vn", true}});
@@ -204,7 +205,8 @@ Mesh read_obj(const Source& source) {
   try {
     const Texts texts = cut_lines(source.bytes, source.chunk_bytes);
     Pieces pieces(texts.size());
-    for_each_chunk(pieces.size(), [&](std::size_t i) { parse_obj(texts[i], pieces[i]); });
+    const auto parse = [&](std::size_t i) { parse_obj(texts[i], pieces[i]); };
+    for_each_chunk(pieces.size(), parse, progress_within(source.progress, 0.0, 0.9));
     return join(source, texts, pieces);
   } catch (const Fault& fault) {
     throw_at_line(source, fault);

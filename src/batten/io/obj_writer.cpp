@@ -117,6 +117,11 @@ class FaceWriter {
 }  // namespace
 
 void write_obj(OutputFile& file, const Mesh& mesh) {
+  const auto rows_of = [](const CornerList& list) {
+    return list.attribute == nullptr ? 0 : list.attribute->values.rows();
+  };
+  file.expect_rows(mesh.vertex_count() + rows_of(find_list(mesh, "uv")) + rows_of(find_list(mesh, "normal")) +
+                   static_cast<std::ptrdiff_t>(mesh.creases.size()) + mesh.face_count());
   for (const std::string& library : mesh.material_libraries) file.write("mtllib " + library + "\n");
   write_points(file, mesh);
   write_list(file, "vt", find_list(mesh, "uv"));

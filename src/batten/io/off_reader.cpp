@@ -107,7 +107,7 @@ void scale_colors(Attribute& attribute) {
 Mesh read_rows(const Source& source, const OffHeader& header) {
   require_index_count(source.name, static_cast<std::size_t>(header.vertex_count), "vertices");
   require_index_count(source.name, static_cast<std::size_t>(header.face_count), "faces");
-  const Rows rows = find_rows(header.body, source.chunk_bytes);
+  const Rows rows = find_rows(source, header.body);
   if (rows.count < header.vertex_count + header.face_count) {
     throw Error(ErrorCode::BadFile, source.name + ": the header promises " + std::to_string(header.vertex_count) +
                                         " vertices and " + std::to_string(header.face_count) + " faces, but only " +
@@ -118,7 +118,7 @@ Mesh read_rows(const Source& source, const OffHeader& header) {
   mesh.attributes = find_attributes(header);
   for (Attribute& attribute : mesh.attributes) attribute.values.resize(header.vertex_count, attribute.values.cols());
   std::vector<FaceList> faces(rows.chunks.size());
-  for_each_row(rows, [&](Scanner& scanner, std::ptrdiff_t row, std::size_t chunk) {
+  for_each_row(source, rows, [&](Scanner& scanner, std::ptrdiff_t row, std::size_t chunk) {
     if (row >= header.vertex_count + header.face_count) {
       scanner.skip_tokens();
     } else if (row >= header.vertex_count) {

@@ -4,6 +4,7 @@
 namespace batten::io {
 
 void write_off(OutputFile& file, const Mesh& mesh) {
+  file.expect_rows(std::ptrdiff_t{mesh.vertex_count()} + mesh.face_count());
   TextBuffer header;
   header.put("OFF\n").put(mesh.vertex_count()).put(' ').put(mesh.face_count()).put(" 0\n");
   file.write(header.text());

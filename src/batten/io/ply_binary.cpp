@@ -110,6 +110,12 @@ class BinaryReader {
     throw Fault{where, code, message};
   }
 
+  void report_now_and_then(std::size_t row, std::size_t count, double begin, double end) const {
+    constexpr std::size_t kRowsBetween = std::size_t{1} << 20;
+    if (row % kRowsBetween != 0) return;
+    report_progress(source_.progress, begin + (end - begin) * static_cast<double>(row) / static_cast<double>(count));
+  }
+
   /// What the file cannot hold is never allocated.
   void require_bytes(const PlyElement& element) const {
     const std::size_t row_bytes = element.smallest_row();
@@ -123,7 +129,7 @@ class BinaryReader {
   void read_fixed_vertices(const PlyTargets& targets) {
     const PlyElement& element = *targets.element;
     const std::size_t row_bytes = element.smallest_row();
-    parallel_for(static_cast<std::ptrdiff_t>(element.count), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    const auto read_block = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
       std::size_t offset = 0;
       for (std::size_t p = 0; p < element.properties.size(); ++p) {
         const PlyColumn& column = targets.columns[p];
@@ -136,7 +142,9 @@ class BinaryReader {
         });
         offset += byte_size(element.properties[p].type);
       }
-    });
+    };
+    parallel_for(static_cast<std::ptrdiff_t>(element.count), read_block, kDefaultBlock,
+                 progress_within(source_.progress, 0.0, 0.5));
   }
 
   void require_finite(const PlyTargets& targets) const {
@@ -184,6 +192,7 @@ class BinaryReader {
     mesh_.face_offsets.resize(face_count + 1);
     mesh_.face_offsets[0] = 0;
     for (std::size_t face = 0; face < face_count; ++face) {
+      report_now_and_then(face, face_count, 0.5, 0.7);
       const auto left = static_cast<std::size_t>(end_ - at_);
       if (left < fixed) fail_truncated(face, face_count);
       const auto size = static_cast<std::int64_t>(load<Count, Order>(at_ + layout.before));
@@ -213,7 +222,7 @@ class BinaryReader {
     const std::size_t fixed = layout.before + byte_size(layout.count_type) + layout.after;
     const Buffer<Index>& offsets = mesh_.face_offsets;
     const std::ptrdiff_t face_count = mesh_.face_count();
-    for_each_chunk(static_cast<std::size_t>(block_count(face_count)), [&](std::size_t block) {
+    const auto copy_block = [&](std::size_t block) {
       const std::ptrdiff_t begin = static_cast<std::ptrdiff_t>(block) * kDefaultBlock;
       const std::ptrdiff_t end = std::min(begin + kDefaultBlock, face_count);
       for (std::ptrdiff_t face = begin; face < end; ++face) {
@@ -229,7 +238,9 @@ class BinaryReader {
           mesh_.face_vertices[corner] = static_cast<Index>(vertex);
         }
       }
-    });
+    };
+    for_each_chunk(static_cast<std::size_t>(block_count(face_count)), copy_block,
+                   progress_within(source_.progress, 0.7, 1.0));
   }
 
   /// Rows of any size, one after the other: several lists, or lists at the vertices.
@@ -237,6 +248,7 @@ class BinaryReader {
     std::vector<FaceList> faces(1);
     BinaryValues<Order> values{at_, end_};
     for (std::size_t row = 0; row < targets.element->count; ++row) {
+      report_now_and_then(row, targets.element->count, 0.0, 1.0);
       read_ply_row(values, targets, static_cast<std::ptrdiff_t>(row), faces[0]);
     }
     at_ = values.at;

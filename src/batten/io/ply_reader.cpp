@@ -53,7 +53,7 @@ struct ElementRows {
 
 void read_text(const Source& source, const PlyHeader& header, std::vector<PlyTargets>& targets, Mesh& mesh) {
   const auto offset = static_cast<std::size_t>(header.body - source.bytes.data());
-  const Rows rows = find_rows(source.bytes.substr(offset), source.chunk_bytes);
+  const Rows rows = find_rows(source, source.bytes.substr(offset));
   require_text_size(source, header, rows);
   std::vector<ElementRows> elements;
   for (PlyTargets& target : targets) {
@@ -63,7 +63,7 @@ void read_text(const Source& source, const PlyHeader& header, std::vector<PlyTar
     elements.push_back({&target, begin, begin + static_cast<std::ptrdiff_t>(target.element->count)});
   }
   std::vector<FaceList> faces(rows.chunks.size());
-  for_each_row(rows, [&](Scanner& scanner, std::ptrdiff_t row, std::size_t chunk) {
+  for_each_row(source, rows, [&](Scanner& scanner, std::ptrdiff_t row, std::size_t chunk) {
     std::size_t at = 0;
     while (at < elements.size() && row >= elements[at].end_row) ++at;
     if (at == elements.size()) {

@@ -143,6 +143,7 @@ void write_text(OutputFile& file, const Mesh& mesh, const std::vector<Column>& c
 void write_ply(OutputFile& file, const Mesh& mesh, Encoding encoding) {
   const std::vector<Column> columns = find_columns(file.name(), mesh);
   const bool short_lists = largest_face(mesh) <= 255;
+  file.expect_rows(std::ptrdiff_t{mesh.vertex_count()} + mesh.face_count());
   write_header(file, mesh, columns, short_lists, encoding);
   if (encoding == Encoding::Binary) {
     write_binary(file, mesh, columns, short_lists);

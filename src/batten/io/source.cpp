@@ -9,10 +9,7 @@
 #include <cstring>
 #include <limits>
 
-#include "batten/types.h"
-#if !defined(__EMSCRIPTEN__)
-#include <sys/mman.h>
-#endif
+#include "batten/parallel/parallel.h"
 
 namespace batten::io {
 
@@ -30,6 +27,41 @@ struct Descriptor {
     if (owned && number >= 0) ::close(number);
   }
 };
+
+/// As many bytes as there are, in pieces that threads share.
+Buffer<char> read_file(int descriptor, const std::string& name, std::size_t size, const Progress& progress) {
+  constexpr std::ptrdiff_t kPiece = std::ptrdiff_t{1} << 20;
+  Buffer<char> bytes(size);
+  const auto read_piece = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    while (begin < end) {
+      const ssize_t got = ::pread(descriptor, bytes.data() + begin, static_cast<std::size_t>(end - begin), begin);
+      if (got < 0 && errno == EINTR) continue;
+      if (got < 0) throw_unreadable(name, std::strerror(errno));
+      if (got == 0) throw_unreadable(name, "another program made it shorter meanwhile; try again when it has finished");
+      begin += got;
+    }
+  };
+  parallel_for(static_cast<std::ptrdiff_t>(size), read_piece, kPiece, progress);
+  return bytes;
+}
+
+/// Until the end comes. A signal may be the user's wish to stop waiting: each round asks.
+Buffer<char> read_stream(int descriptor, const std::string& name, const Progress& progress) {
+  constexpr std::size_t kFirst = std::size_t{1} << 16;
+  Buffer<char> bytes(kFirst);
+  for (std::size_t size = 0;;) {
+    report_progress(progress, 0.0);
+    if (size == bytes.size()) bytes.resize(2 * size);
+    const ssize_t got = ::read(descriptor, bytes.data() + size, bytes.size() - size);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) throw_unreadable(name, std::strerror(errno));
+    size += static_cast<std::size_t>(got);
+    if (got == 0) {
+      bytes.resize(size);
+      return bytes;
+    }
+  }
+}
 
 }  // namespace
 
@@ -50,7 +82,7 @@ void require_index_count(const std::string& name, std::size_t count, const char*
                                        " are more than a 32-bit index can count; split the file");
 }
 
-InputFile::InputFile(const std::string& path) {
+InputFile::InputFile(const std::string& path, const Progress& progress) {
   const bool standard = path == "-";
   const std::string name = standard ? "standard input" : path;
   const Descriptor file{standard ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC), !standard};
@@ -58,46 +90,11 @@ InputFile::InputFile(const std::string& path) {
   struct stat status {};
   if (::fstat(file.number, &status) != 0) throw_unreadable(name, std::strerror(errno));
   if (S_ISDIR(status.st_mode)) throw_unreadable(name, "it is a folder; name a file in it");
-  if (!(S_ISREG(status.st_mode) && !standard && map(file.number))) read_all(file.number, name);
-  if (size_ == 0) throw Error(ErrorCode::BadFile, name + ": the file is empty; write or download it again");
-}
-
-InputFile::~InputFile() {
-#if !defined(__EMSCRIPTEN__)
-  if (mapped_) ::munmap(const_cast<char*>(data_), size_);
-#endif
-}
-
-bool InputFile::map(int descriptor) {
-#if defined(__EMSCRIPTEN__)
-  (void)descriptor;
-  return false;
-#else
-  struct stat status {};
-  if (::fstat(descriptor, &status) != 0 || status.st_size <= 0) return false;
-  const auto size = static_cast<std::size_t>(status.st_size);
-  void* memory = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
-  if (memory == MAP_FAILED) return false;
-  ::madvise(memory, size, MADV_WILLNEED);
-  data_ = static_cast<const char*>(memory);
-  size_ = size;
-  mapped_ = true;
-  return true;
-#endif
-}
-
-void InputFile::read_all(int descriptor, const std::string& name) {
-  constexpr std::size_t kFirst = std::size_t{1} << 16;
-  owned_.resize(kFirst);
-  for (;;) {
-    if (size_ == owned_.size()) owned_.resize(2 * size_);
-    const ssize_t got = ::read(descriptor, owned_.data() + size_, owned_.size() - size_);
-    if (got == 0) break;
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) throw_unreadable(name, std::strerror(errno));
-    size_ += static_cast<std::size_t>(got);
-  }
-  data_ = owned_.data();
+  // Files that the system makes up (/proc) have no size.
+  const bool known = S_ISREG(status.st_mode) && !standard && status.st_size > 0;
+  bytes_ = known ? read_file(file.number, name, static_cast<std::size_t>(status.st_size), progress)
+                 : read_stream(file.number, name, progress);
+  if (bytes_.empty()) throw Error(ErrorCode::BadFile, name + ": the file is empty; write or download it again");
 }
 
 }  // namespace batten::io

@@ -6,6 +6,7 @@
 #include "batten/io/faces.h"
 #include "batten/io/formats.h"
 #include "batten/io/scanner.h"
+#include "batten/progress.h"
 
 namespace batten::io {
 
@@ -13,6 +14,7 @@ namespace {
 
 constexpr std::size_t kHeaderBytes = 84;
 constexpr std::size_t kTriangleBytes = 50;
+constexpr std::size_t kCornersBetweenReports = std::size_t{1} << 17;
 
 /// Equal coordinates become one vertex, numbered by first appearance. A hash table with open addressing.
 class VertexWelder {
@@ -100,6 +102,9 @@ Mesh read_binary(const Source& source) {
   faces.sizes.assign(count, 3);
   faces.vertices.resize(3 * count);
   for (std::size_t corner = 0; corner < 3 * count; ++corner) {
+    if (corner % kCornersBetweenReports == 0) {
+      report_progress(source.progress, static_cast<double>(corner) / static_cast<double>(3 * count));
+    }
     const char* at = source.bytes.data() + kHeaderBytes + kTriangleBytes * (corner / 3) + 12 * (corner % 3 + 1);
     double point[3];
     for (int k = 0; k < 3; ++k) point[k] = double{load<float, ByteOrder::Little>(at + 4 * k)};
@@ -166,6 +171,10 @@ class TextParser {
     double point[3];
     const char* const names[] = {"x coordinate", "y coordinate", "z coordinate"};
     for (int k = 0; k < 3; ++k) point[k] = scanner_.coordinate(names[k]);
+    if (faces_.vertices.size() % kCornersBetweenReports == 0) {
+      const auto read = static_cast<double>(scanner_.position() - source_.bytes.data());
+      report_progress(source_.progress, read / static_cast<double>(source_.bytes.size()));
+    }
     faces_.vertices.push_back(welder_.add(point));
     ++corners_;
   }

@@ -63,6 +63,7 @@ void write_stl(OutputFile& file, const Mesh& mesh, Encoding encoding) {
     throw Error(ErrorCode::BadShape,
                 file.name() + ": STL holds triangles only, and the mesh has no face; write xyz or ply");
   }
+  file.expect_rows(mesh.face_count());
   if (encoding == Encoding::Text) {
     write_text(file, mesh);
     return;

@@ -91,6 +91,7 @@ void write_rows(OutputFile& file, std::ptrdiff_t count, const Body& body) {
       for (std::ptrdiff_t row = begin; row < end; ++row) body(outputs[i], row);
     });
     for (std::ptrdiff_t i = 0; i < blocks; ++i) file.write(outputs[i].text());
+    file.rows_written(std::min(kBlock * kBatch, count - first));
   }
 }
 

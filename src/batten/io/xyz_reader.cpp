@@ -21,24 +21,25 @@ std::ptrdiff_t count_columns(std::string_view text) {
 }
 
 /// Finds the line for the message: some row is shorter than the first.
-[[noreturn]] void fail_ragged(const Rows& rows, std::ptrdiff_t columns) {
+[[noreturn]] void fail_ragged(const Source& source, const Rows& rows, std::ptrdiff_t columns) {
   const auto check = [&](Scanner& scanner, std::ptrdiff_t /*row*/, std::size_t /*chunk*/) {
     const Scanner line = scanner;
     if (count_tokens(scanner) == columns) return;
     line.fail(ErrorCode::BadFile, "the first line has " + std::to_string(columns) + " numbers, this one has not");
   };
-  for_each_row(rows, check, kSeparator);
+  for_each_row(source, rows, check, kSeparator);
   throw Error(ErrorCode::BadFile, "the rows do not have the same number of columns");
 }
 
 Mesh read_rows(const Source& source) {
-  const Rows rows = find_rows(source.bytes, source.chunk_bytes, kSeparator);
+  const Rows rows = find_rows(source, source.bytes, kSeparator);
   if (rows.count == 0)
     throw Error(ErrorCode::BadFile, source.name + ": no points (`x y z`) in it; is this an XYZ file?");
   require_index_count(source.name, static_cast<std::size_t>(rows.count), "points");
   const std::ptrdiff_t columns = count_columns(source.bytes);
   // A number takes a digit and a blank at least: what the text cannot hold is never allocated.
-  if (columns > static_cast<std::ptrdiff_t>(source.bytes.size() + 1) / 2 / rows.count) fail_ragged(rows, columns);
+  if (columns > static_cast<std::ptrdiff_t>(source.bytes.size() + 1) / 2 / rows.count)
+    fail_ragged(source, rows, columns);
   Mesh mesh;
   mesh.points.resize(rows.count, 3);
   Values extra(rows.count, std::max<std::ptrdiff_t>(columns - 3, 0));
@@ -47,7 +48,7 @@ Mesh read_rows(const Source& source) {
     for (int k = 0; k < 3; ++k) mesh.points(row, k) = scanner.coordinate(names[k]);
     for (double& value : extra.row(row)) value = scanner.number("value of a point, as the first line has it");
   };
-  for_each_row(rows, read, kSeparator);
+  for_each_row(source, rows, read, kSeparator);
   if (columns > 3) mesh.attributes.push_back({columns == 6 ? "normal" : "extra", std::move(extra), {}});
   return mesh;
 }

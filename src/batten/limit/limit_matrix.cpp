@@ -33,7 +33,7 @@ void visit_ring(const Topology& topology, Index vertex, const VertexRing& ring, 
 
 }  // namespace
 
-LimitMatrix::LimitMatrix(const Topology& topology, const Scheme& scheme, LimitOptions options)
+LimitMatrix::LimitMatrix(const Topology& topology, const Scheme& scheme, LimitOptions options, const Progress& progress)
     : topology_(topology), scheme_(scheme), options_(std::move(options)) {
   require_triangles(topology, scheme);
   if (!options_.vertex_alpha.empty() && static_cast<Index>(options_.vertex_alpha.size()) != topology.vertex_count()) {
@@ -41,13 +41,15 @@ LimitMatrix::LimitMatrix(const Topology& topology, const Scheme& scheme, LimitOp
   }
   kinds_.resize(static_cast<std::size_t>(topology.vertex_count()));
   face_counts_.resize(static_cast<std::size_t>(topology.vertex_count()));
-  parallel_for(topology.vertex_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+  const auto classify_block = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     VertexRing ring;
     for (auto v = static_cast<Index>(begin); v < end; ++v) classify(v, ring);
-  });
+  };
+  parallel_for(topology.vertex_count(), classify_block, kDefaultBlock, progress_within(progress, 0.0, 0.5));
   special_offsets_.push_back(0);
   VertexRing ring;
   for (Index v = 0; v < topology.vertex_count(); ++v) {
+    if (v % kDefaultBlock == 0) report_progress(progress, 0.5 + 0.5 * v / topology.vertex_count());
     if (row_kind(v) == LimitRow::Special) add_special_row(v, ring);
   }
 }
@@ -139,7 +141,7 @@ Index LimitMatrix::special_place(Index vertex) const {
 }
 
 template <int K>
-void LimitMatrix::apply_columns(const double* in, std::ptrdiff_t stride, Values& out) const {
+void LimitMatrix::apply_columns(const double* in, std::ptrdiff_t stride, Values& out, const Progress& progress) const {
   const auto columns = K > 0 ? K : static_cast<int>(out.cols());
   const auto add = [&](double* target, double weight, const double* row) {
     for (int c = 0; c < (K > 0 ? K : columns); ++c) target[c] += weight * row[c];
@@ -147,7 +149,7 @@ void LimitMatrix::apply_columns(const double* in, std::ptrdiff_t stride, Values&
   const bool quads = scheme_.kind == SchemeKind::CatmullClark;
   Buffer<double> face_means(quads ? static_cast<std::size_t>(topology_.face_count()) * columns : 0);
   if (quads) {
-    parallel_for(topology_.face_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    const auto means = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
       for (auto f = static_cast<Index>(begin); f < end; ++f) {
         double* mean = face_means.data() + static_cast<std::ptrdiff_t>(f) * columns;
         for (int c = 0; c < columns; ++c) mean[c] = 0.0;
@@ -156,9 +158,10 @@ void LimitMatrix::apply_columns(const double* in, std::ptrdiff_t stride, Values&
           add(mean, share, in + topology_.origin(h) * stride);
         }
       }
-    });
+    };
+    parallel_for(topology_.face_count(), means, kDefaultBlock, progress_within(progress, 0.0, 0.4));
   }
-  parallel_for(topology_.vertex_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+  const auto rows = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (auto v = static_cast<Index>(begin); v < end; ++v) {
       double* target = out.data() + static_cast<std::ptrdiff_t>(v) * columns;
       for (int c = 0; c < columns; ++c) target[c] = 0.0;
@@ -175,17 +178,18 @@ void LimitMatrix::apply_columns(const double* in, std::ptrdiff_t stride, Values&
       });
       add(target, weights.vertex, in + v * stride);
     }
-  });
+  };
+  parallel_for(topology_.vertex_count(), rows, kDefaultBlock, progress_within(progress, 0.4, 1.0));
 }
 
-Values LimitMatrix::apply(ConstValuesRef values) const {
+Values LimitMatrix::apply(ConstValuesRef values, const Progress& progress) const {
   require_vertex_rows(topology_, values);
   Values out(values.rows(), values.cols());
   if (out.size() == 0) return out;
   if (values.cols() == 3) {
-    apply_columns<3>(values.data(), values.outerStride(), out);
+    apply_columns<3>(values.data(), values.outerStride(), out, progress);
   } else {
-    apply_columns<0>(values.data(), values.outerStride(), out);
+    apply_columns<0>(values.data(), values.outerStride(), out, progress);
   }
   return out;
 }
@@ -280,16 +284,18 @@ class NormalWriter {
 
 }  // namespace
 
-LimitNormals limit_normals(const Topology& topology, const Scheme& scheme, ConstValuesRef control, LimitMasks masks) {
+LimitNormals limit_normals(const Topology& topology, const Scheme& scheme, ConstValuesRef control, LimitMasks masks,
+                           const Progress& progress) {
   require_vertex_rows(topology, control);
   require_triangles(topology, scheme);
   if (control.cols() != 3) throw Error(ErrorCode::BadShape, "normals need three columns");
   LimitNormals normals{Values::Zero(topology.vertex_count(), 3), Values::Zero(topology.half_edge_count(), 3)};
   const NormalWriter writer(topology, scheme, control, masks, normals);
-  parallel_for(topology.vertex_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+  const auto write_block = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     VertexRing ring;
     for (auto v = static_cast<Index>(begin); v < end; ++v) writer.write(v, ring);
-  });
+  };
+  parallel_for(topology.vertex_count(), write_block, kDefaultBlock, progress);
   return normals;
 }
 

@@ -29,8 +29,8 @@ struct LimitOptions {
 /// Build O(H); apply O(H k), matrix-free but for special rows. The topology must outlive the matrix. Safe to share.
 class LimitMatrix {
  public:
-  /// Throws Error(NotTriangles) for Loop on other faces.
-  LimitMatrix(const Topology& topology, const Scheme& scheme, LimitOptions options = {});
+  /// Throws Error(NotTriangles) for Loop on other faces, Error(Cancelled).
+  LimitMatrix(const Topology& topology, const Scheme& scheme, LimitOptions options = {}, const Progress& progress = {});
 
   const Topology& topology() const { return topology_; }
   const Scheme& scheme() const { return scheme_; }
@@ -44,8 +44,8 @@ class LimitMatrix {
     return face_counts_[vertex] < 255 ? face_counts_[vertex] : static_cast<int>(topology_.vertex_face_count(vertex));
   }
 
-  /// A values: values is V-by-k. Throws Error(BadShape).
-  Values apply(ConstValuesRef values) const;
+  /// A values: values is V-by-k. Throws Error(BadShape), Error(Cancelled).
+  Values apply(ConstValuesRef values, const Progress& progress = {}) const;
 
   /// Calls visit(column, weight) for the entries of a row; a column may come several times.
   template <typename Visit>
@@ -71,7 +71,7 @@ class LimitMatrix {
   void add_special_row(Index vertex, VertexRing& ring);
   Weights smooth_weights(Index vertex, int valence) const;
   template <int K>
-  void apply_columns(const double* in, std::ptrdiff_t stride, Values& out) const;
+  void apply_columns(const double* in, std::ptrdiff_t stride, Values& out, const Progress& progress) const;
   Index special_place(Index vertex) const;
 
   const Topology& topology_;
@@ -90,9 +90,9 @@ struct LimitNormals {
   Values vertices;  ///< V-by-3: at a crease or corner the normal of the first sector; zero where there is none
   Values corners;   ///< H-by-3: per half-edge, the normal of its own side at its origin
 };
-/// control: V-by-3. O(H). Throws Error(BadShape).
+/// control: V-by-3. O(H). Throws Error(BadShape), Error(Cancelled).
 LimitNormals limit_normals(const Topology& topology, const Scheme& scheme, ConstValuesRef control,
-                           LimitMasks masks = LimitMasks::Exact);
+                           LimitMasks masks = LimitMasks::Exact, const Progress& progress = {});
 
 template <typename Visit>
 void LimitMatrix::visit_row(Index vertex, const Visit& visit) const {

@@ -22,10 +22,11 @@ struct Spoke {
   }
 };
 
-bool all_of(std::ptrdiff_t count, const std::function<bool(std::ptrdiff_t, std::ptrdiff_t)>& test) {
+bool all_of(std::ptrdiff_t count, const Progress& progress,
+            const std::function<bool(std::ptrdiff_t, std::ptrdiff_t)>& test) {
   return parallel_reduce(
              count, 1, [&](std::ptrdiff_t begin, std::ptrdiff_t end) { return test(begin, end) ? 1 : 0; },
-             [](int a, int b) { return a & b; }, 1 << 15) == 1;
+             [](int a, int b) { return a & b; }, 1 << 13, progress) == 1;
 }
 
 bool has_repeated_vertex(const Index* vertices, Index count) {
@@ -42,7 +43,7 @@ bool has_repeated_vertex(const Index* vertices, Index count) {
   return false;
 }
 
-bool offsets_and_indices_hold(const Mesh& mesh) {
+bool offsets_and_indices_hold(const Mesh& mesh, const Progress& progress) {
   constexpr std::size_t kMost = std::numeric_limits<Index>::max();
   if (mesh.face_offsets.empty() || mesh.face_offsets.front() != 0 || mesh.face_vertices.size() > kMost ||
       static_cast<std::size_t>(mesh.face_offsets.back()) != mesh.face_vertices.size()) {
@@ -67,7 +68,7 @@ bool offsets_and_indices_hold(const Mesh& mesh) {
   const auto points_hold = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     return mesh.points.middleRows(begin, end - begin).allFinite();
   };
-  return all_of(mesh.face_count(), faces_hold) && all_of(mesh.points.rows(), points_hold);
+  return all_of(mesh.face_count(), progress, faces_hold) && all_of(mesh.points.rows(), {}, points_hold);
 }
 
 /// The half-edges that leave each vertex, sorted by destination: spokes[offsets[v] .. offsets[v + 1]).
@@ -76,7 +77,7 @@ struct SpokeTable {
   Buffer<Spoke> spokes;
 };
 
-SpokeTable gather_spokes(TopologyTables& tables) {
+SpokeTable gather_spokes(TopologyTables& tables, const Progress& progress) {
   const Index vertex_count = tables.vertex_count;
   const auto face_count = static_cast<std::ptrdiff_t>(tables.face_offsets.size()) - 1;
   SpokeTable table;
@@ -87,7 +88,7 @@ SpokeTable gather_spokes(TopologyTables& tables) {
       [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
         for (std::ptrdiff_t h = begin; h < end; ++h) atomic_add(table.offsets[tables.origins[h]], 1);
       },
-      1 << 16);
+      1 << 14, progress_within(progress, 0.0, 0.3));
   Index sum = 0;
   for (Index& offset : table.offsets) offset = sum += offset;
   table.spokes.resize(tables.origins.size());
@@ -105,12 +106,12 @@ SpokeTable gather_spokes(TopologyTables& tables) {
           }
         }
       },
-      1 << 14);
+      1 << 13, progress_within(progress, 0.3, 1.0));
   return table;
 }
 
 /// Sorting makes the order independent of which thread came first. False when a directed edge stands twice.
-bool sort_spokes(SpokeTable& table) {
+bool sort_spokes(SpokeTable& table, const Progress& progress) {
   const auto sorted = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     bool unique = true;
     for (std::ptrdiff_t v = begin; v < end; ++v) {
@@ -130,7 +131,7 @@ bool sort_spokes(SpokeTable& table) {
     }
     return unique;
   };
-  return all_of(static_cast<std::ptrdiff_t>(table.offsets.size()) - 1, sorted);
+  return all_of(static_cast<std::ptrdiff_t>(table.offsets.size()) - 1, progress, sorted);
 }
 
 Index find_spoke(const SpokeTable& table, Index from, Index to) {
@@ -144,7 +145,7 @@ Index find_spoke(const SpokeTable& table, Index from, Index to) {
 }
 
 /// Each thread writes the entries of its own vertices' spokes, and of their twins from the lower end.
-void match_twins(const SpokeTable& table, TopologyTables& tables) {
+void match_twins(const SpokeTable& table, TopologyTables& tables, const Progress& progress) {
   tables.twins.resize(tables.origins.size());
   parallel_for(
       tables.vertex_count,
@@ -162,7 +163,7 @@ void match_twins(const SpokeTable& table, TopologyTables& tables) {
           }
         }
       },
-      1 << 13);
+      1 << 13, progress);
 }
 
 Index previous_half_edge(const TopologyTables& tables, Index h) {
@@ -171,7 +172,7 @@ Index previous_half_edge(const TopologyTables& tables, Index h) {
 }
 
 /// Finds where each vertex's fan starts; false when one turn does not meet all faces of a vertex.
-bool start_fans(const SpokeTable& table, TopologyTables& tables) {
+bool start_fans(const SpokeTable& table, TopologyTables& tables, const Progress& progress) {
   tables.vertex_half_edges.resize(static_cast<std::size_t>(tables.vertex_count));
   const auto fans_hold = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (std::ptrdiff_t v = begin; v < end; ++v) {
@@ -196,12 +197,12 @@ bool start_fans(const SpokeTable& table, TopologyTables& tables) {
     }
     return true;
   };
-  return all_of(tables.vertex_count, fans_hold);
+  return all_of(tables.vertex_count, progress, fans_hold);
 }
 
 /// Edges are numbered by their lower half-edge, in order.
-void number_edges(TopologyTables& tables) {
-  constexpr std::ptrdiff_t kBlock = 1 << 16;
+void number_edges(TopologyTables& tables, const Progress& progress) {
+  constexpr std::ptrdiff_t kBlock = 1 << 15;
   const auto count = static_cast<std::ptrdiff_t>(tables.origins.size());
   const auto owns = [&](std::ptrdiff_t h) { return tables.twins[h] < 0 || h < tables.twins[h]; };
   std::vector<Index> firsts(static_cast<std::size_t>(block_count(count, kBlock)) + 1, 0);
@@ -212,7 +213,7 @@ void number_edges(TopologyTables& tables) {
         for (std::ptrdiff_t h = begin; h < end; ++h) owned += owns(h) ? 1 : 0;
         firsts[begin / kBlock + 1] = owned;
       },
-      kBlock);
+      kBlock, progress_within(progress, 0.0, 0.3));
   for (std::size_t i = 1; i < firsts.size(); ++i) firsts[i] += firsts[i - 1];
   tables.edges.resize(tables.origins.size());
   tables.edge_half_edges.resize(static_cast<std::size_t>(firsts.back()));
@@ -227,7 +228,7 @@ void number_edges(TopologyTables& tables) {
           tables.edge_half_edges[edge++] = static_cast<Index>(h);
         }
       },
-      kBlock);
+      kBlock, progress_within(progress, 0.3, 1.0));
 }
 
 /// False when a tag names what does not exist or is not a number.
@@ -264,30 +265,31 @@ Index common_face_size(const Buffer<Index>& offsets) {
     }
     return true;
   };
-  return all_of(static_cast<std::ptrdiff_t>(offsets.size()) - 1, same) ? size : 0;
+  return all_of(static_cast<std::ptrdiff_t>(offsets.size()) - 1, {}, same) ? size : 0;
 }
 
-bool build(const Mesh& mesh, TopologyTables& tables) {
-  if (!offsets_and_indices_hold(mesh)) return false;
+bool build(const Mesh& mesh, TopologyTables& tables, const Progress& progress) {
+  const auto part = [&](double begin, double end) { return progress_within(progress, begin, end); };
+  if (!offsets_and_indices_hold(mesh, part(0.0, 0.1))) return false;
   tables.vertex_count = mesh.vertex_count();
   tables.face_offsets = mesh.face_offsets;
   tables.origins = mesh.face_vertices;
   tables.uniform_face_size = common_face_size(tables.face_offsets);
-  SpokeTable table = gather_spokes(tables);
-  if (!sort_spokes(table)) return false;
-  match_twins(table, tables);
-  if (!start_fans(table, tables)) return false;
-  number_edges(tables);
+  SpokeTable table = gather_spokes(tables, part(0.2, 0.45));
+  if (!sort_spokes(table, part(0.45, 0.55))) return false;
+  match_twins(table, tables, part(0.55, 0.75));
+  if (!start_fans(table, tables, part(0.75, 0.9))) return false;
+  number_edges(tables, part(0.9, 1.0));
   return apply_tags(mesh, table, tables);
 }
 
 }  // namespace
 
-Topology::Topology(const Mesh& mesh) {
+Topology::Topology(const Mesh& mesh, const Progress& progress) {
   if (mesh.points.rows() > std::numeric_limits<Index>::max()) {
     throw Error(ErrorCode::TooLarge, "the mesh has more than 2^31 - 1 vertices; split it");
   }
-  if (build(mesh, tables_)) return;
+  if (build(mesh, tables_, progress)) return;
   const std::vector<MeshProblem> problems = check(mesh);
   if (problems.empty())
     throw Error(ErrorCode::BadShape, "the mesh was refused for a reason that check() does not know");

@@ -31,8 +31,8 @@ class Topology {
  public:
   /// The gate. O(V + H), no allocation per face. Throws Error: IndexOutOfRange, NotFinite, DegenerateFace,
   /// RepeatedFace, NonManifoldEdge, NonManifoldVertex, InconsistentFaces, NonOrientable, TooLarge, BadShape,
-  /// BadArgument (a crease that is no edge). Vertices without a face are allowed.
-  explicit Topology(const Mesh& mesh);
+  /// BadArgument (a crease that is no edge), Cancelled. Vertices without a face are allowed.
+  explicit Topology(const Mesh& mesh, const Progress& progress = {});
 
   /// Trusts its caller: for Refinement and the like.
   static Topology from_tables(TopologyTables tables);

@@ -37,20 +37,21 @@ void resize_half_edges(TopologyTables& child, Index count) {
   child.edges.resize(size);
 }
 
-void number_edge_half_edges(TopologyTables& child, Index edge_count) {
+void number_edge_half_edges(TopologyTables& child, Index edge_count, const Progress& progress) {
   child.edge_half_edges.resize(static_cast<std::size_t>(edge_count));
-  parallel_for(static_cast<std::ptrdiff_t>(child.twins.size()), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+  const auto number = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (auto h = static_cast<Index>(begin); h < end; ++h) {
       if (child.twins[h] < 0 || h < child.twins[h]) child.edge_half_edges[child.edges[h]] = h;
     }
-  });
+  };
+  parallel_for(static_cast<std::ptrdiff_t>(child.twins.size()), number, kDefaultBlock, progress);
 }
 
 /// Quad h of half-edge h: v, edge point, face point, previous edge's point.
-void fill_quads(const Topology& parent, TopologyTables& child) {
+void fill_quads(const Topology& parent, TopologyTables& child, const Progress& progress) {
   const Index v_count = parent.vertex_count();
   const Index e_count = parent.edge_count();
-  parallel_for(parent.face_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+  const auto fill = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (auto f = static_cast<Index>(begin); f < end; ++f) {
       const Index first = parent.face_begin(f);
       const Index last = parent.face_end(f) - 1;
@@ -75,17 +76,18 @@ void fill_quads(const Topology& parent, TopologyTables& child) {
         for (Index i = 0; i < 4; ++i) child.faces[q + i] = h;
       }
     }
-  });
+  };
+  parallel_for(parent.face_count(), fill, kDefaultBlock, progress);
 }
 
 /// Triangle 4f + k at corner k: v_k, edge k, edge k-1; triangle 4f + 3: edges 0, 1, 2.
-void fill_triangles(const Topology& parent, TopologyTables& child) {
+void fill_triangles(const Topology& parent, TopologyTables& child, const Progress& progress) {
   const Index v_count = parent.vertex_count();
   const Index e_count = parent.edge_count();
   // Half-edge h = 3f + k of the parent stands in two child triangles: the first side of 4f + k, the third of 4f + k
   // + 1.
   const auto corner_triangle = [](Index h) { return 4 * (h / 3) + h % 3; };
-  parallel_for(parent.face_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+  const auto fill = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (auto f = static_cast<Index>(begin); f < end; ++f) {
       const Index middle = 3 * (4 * f + 3);
       for (Index k = 0; k < 3; ++k) {
@@ -110,7 +112,8 @@ void fill_triangles(const Topology& parent, TopologyTables& child) {
         child.faces[middle + k] = 4 * f + 3;
       }
     }
-  });
+  };
+  parallel_for(parent.face_count(), fill, kDefaultBlock, progress);
 }
 
 /// A child vertex's fan starts where its parent's does; a new vertex's starts at the boundary if there is one.
@@ -188,7 +191,7 @@ void require_triangles(const Topology& topology, const Scheme& scheme) {
                                            " corners; triangulate (--triangulate) or take Catmull-Clark");
 }
 
-Topology child_topology(const Topology& parent, const Scheme& scheme) {
+Topology child_topology(const Topology& parent, const Scheme& scheme, const Progress& progress) {
   const bool quads = scheme.kind == SchemeKind::CatmullClark;
   require_triangles(parent, scheme);
   const std::int64_t half_edges = std::int64_t{4} * parent.half_edge_count();
@@ -203,12 +206,14 @@ Topology child_topology(const Topology& parent, const Scheme& scheme) {
   child.face_offsets = uniform_offsets(faces, child.uniform_face_size);
   resize_half_edges(child, faces * child.uniform_face_size);
   if (quads) {
-    fill_quads(parent, child);
+    fill_quads(parent, child, progress_within(progress, 0.0, 0.6));
   } else {
-    fill_triangles(parent, child);
+    fill_triangles(parent, child, progress_within(progress, 0.0, 0.6));
   }
-  number_edge_half_edges(child, 2 * parent.edge_count() + parent.half_edge_count());
+  number_edge_half_edges(child, 2 * parent.edge_count() + parent.half_edge_count(),
+                         progress_within(progress, 0.6, 0.8));
   start_fans(parent, scheme, child);
+  report_progress(progress, 0.9);
   pass_tags_on(parent, scheme, child);
   return Topology::from_tables(std::move(child));
 }

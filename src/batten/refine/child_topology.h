@@ -8,6 +8,6 @@ namespace batten {
 /// Throws Error(NotTriangles), naming a face, for Loop on other faces.
 void require_triangles(const Topology& topology, const Scheme& scheme);
 
-Topology child_topology(const Topology& topology, const Scheme& scheme);
+Topology child_topology(const Topology& topology, const Scheme& scheme, const Progress& progress = {});
 
 }  // namespace batten

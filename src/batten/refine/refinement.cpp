@@ -1,6 +1,7 @@
 #include "batten/refine/refinement.h"
 
 #include <array>
+#include <cmath>
 #include <string>
 
 #include "batten/error.h"
@@ -125,11 +126,12 @@ void check_alpha(double alpha) {
 
 }  // namespace
 
-Refinement::Refinement(const Topology& topology, const Scheme& scheme, std::vector<double> vertex_alpha)
+Refinement::Refinement(const Topology& topology, const Scheme& scheme, std::vector<double> vertex_alpha,
+                       const Progress& progress)
     : topology_(topology),
       scheme_(scheme),
       vertex_alpha_(std::move(vertex_alpha)),
-      child_(child_topology(topology, scheme)) {
+      child_(child_topology(topology, scheme, progress)) {
   check_alpha(scheme.alpha);
   for (const double alpha : vertex_alpha_) check_alpha(alpha);
   if (!vertex_alpha_.empty() && static_cast<Index>(vertex_alpha_.size()) != topology.vertex_count()) {
@@ -138,43 +140,51 @@ Refinement::Refinement(const Topology& topology, const Scheme& scheme, std::vect
 }
 
 template <int K>
-void Refinement::apply_columns(const double* in, std::ptrdiff_t stride, Values& out) const {
+void Refinement::apply_columns(const double* in, std::ptrdiff_t stride, Values& out, const Progress& progress) const {
   const auto columns = static_cast<int>(out.cols());
   const Step<K> step{topology_, child_, scheme_, Rows<K>(in, stride, columns), out.data(), columns};
-  if (scheme_.kind == SchemeKind::CatmullClark) {
-    parallel_for(topology_.face_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-      for (auto f = static_cast<Index>(begin); f < end; ++f) step.face_point(f);
-    });
-  }
-  parallel_for(topology_.edge_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    for (auto e = static_cast<Index>(begin); e < end; ++e) step.edge_point(e);
-  });
   const bool untagged = is_untagged(topology_);
-  parallel_for(topology_.vertex_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+  const auto face_points = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (auto f = static_cast<Index>(begin); f < end; ++f) step.face_point(f);
+  };
+  const auto edge_points = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (auto e = static_cast<Index>(begin); e < end; ++e) step.edge_point(e);
+  };
+  const auto vertex_points = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     VertexRing ring;
     for (auto v = static_cast<Index>(begin); v < end; ++v) step.vertex_point(v, alpha(v), untagged, ring);
-  });
+  };
+  if (scheme_.kind == SchemeKind::CatmullClark) {
+    parallel_for(topology_.face_count(), face_points, kDefaultBlock, progress_within(progress, 0.0, 0.2));
+  }
+  parallel_for(topology_.edge_count(), edge_points, kDefaultBlock, progress_within(progress, 0.2, 0.6));
+  parallel_for(topology_.vertex_count(), vertex_points, kDefaultBlock, progress_within(progress, 0.6, 1.0));
 }
 
-Values Refinement::apply(ConstValuesRef values) const {
+Values Refinement::apply(ConstValuesRef values, const Progress& progress) const {
   require_vertex_rows(topology_, values);
   Values out(child_.vertex_count(), values.cols());
   if (out.size() == 0) return out;
   if (values.cols() == 3) {
-    apply_columns<3>(values.data(), values.outerStride(), out);
+    apply_columns<3>(values.data(), values.outerStride(), out, progress);
   } else {
-    apply_columns<0>(values.data(), values.outerStride(), out);
+    apply_columns<0>(values.data(), values.outerStride(), out, progress);
   }
   return out;
 }
 
-RefinedSurface refine(const Topology& topology, const Scheme& scheme, ConstValuesRef values, int levels) {
+RefinedSurface refine(const Topology& topology, const Scheme& scheme, ConstValuesRef values, int levels,
+                      const Progress& progress) {
   if (levels < 0) throw Error(ErrorCode::BadArgument, "levels must not be negative");
   RefinedSurface surface{topology, values};
   Scheme step_scheme = scheme;
   for (int level = 0; level < levels; ++level) {
-    Refinement step(surface.topology, step_scheme);
-    surface.values = step.apply(surface.values);
+    // Each level takes four times as long as the one before.
+    const double begin = level == 0 ? 0.0 : std::pow(0.25, levels - level);
+    const double end = std::pow(0.25, levels - level - 1);
+    const double middle = 0.5 * (begin + end);
+    Refinement step(surface.topology, step_scheme, {}, progress_within(progress, begin, middle));
+    surface.values = step.apply(surface.values, progress_within(progress, middle, end));
     surface.topology = std::move(step).child();
     step_scheme = scheme.after_first_step();
   }

@@ -17,19 +17,21 @@ namespace batten {
 class Refinement {
  public:
   /// vertex_alpha: empty, or Lai's alpha for each vertex instead of scheme.alpha.
-  /// Throws Error(NotTriangles) for Loop on other faces, Error(BadArgument) for alpha out of [0, 1], Error(TooLarge).
-  Refinement(const Topology& topology, const Scheme& scheme, std::vector<double> vertex_alpha = {});
+  /// Throws Error(NotTriangles) for Loop on other faces, Error(BadArgument) for alpha out of [0, 1], Error(TooLarge),
+  /// Error(Cancelled).
+  Refinement(const Topology& topology, const Scheme& scheme, std::vector<double> vertex_alpha = {},
+             const Progress& progress = {});
 
   const Topology& child() const& { return child_; }
   Topology child() && { return std::move(child_); }
   const Scheme& scheme() const { return scheme_; }
 
-  /// values: V-by-k, row i for vertex i. Returns V'-by-k. Throws Error(BadShape).
-  Values apply(ConstValuesRef values) const;
+  /// values: V-by-k, row i for vertex i. Returns V'-by-k. Throws Error(BadShape), Error(Cancelled).
+  Values apply(ConstValuesRef values, const Progress& progress = {}) const;
 
  private:
   template <int K>
-  void apply_columns(const double* in, std::ptrdiff_t stride, Values& out) const;
+  void apply_columns(const double* in, std::ptrdiff_t stride, Values& out, const Progress& progress) const;
   double alpha(Index vertex) const { return vertex_alpha_.empty() ? scheme_.alpha : vertex_alpha_[vertex]; }
 
   const Topology& topology_;
@@ -44,7 +46,8 @@ struct RefinedSurface {
 };
 
 /// `levels` steps; alpha acts in the first. Throws what Refinement throws, and Error(BadArgument) for negative levels.
-RefinedSurface refine(const Topology& topology, const Scheme& scheme, ConstValuesRef values, int levels);
+RefinedSurface refine(const Topology& topology, const Scheme& scheme, ConstValuesRef values, int levels,
+                      const Progress& progress = {});
 
 /// The scheme that a mesh asks for: its tags, Loop for triangles and Catmull-Clark for anything else.
 Scheme choose_scheme(const Mesh& mesh);

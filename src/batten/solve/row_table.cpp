@@ -48,14 +48,14 @@ class PatternIndex {
 
 }  // namespace
 
-RowTable::RowTable(const RowSource& source) : size_(source.size()) {
+RowTable::RowTable(const RowSource& source, const Progress& progress) : size_(source.size()) {
   blocks_.resize(static_cast<std::size_t>(block_count(size_, kBlock)));
   parallel_for(
       size_,
       [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
         fill(source, static_cast<Index>(begin), static_cast<Index>(end), blocks_[begin / kBlock]);
       },
-      kBlock);
+      kBlock, progress);
   merge_patterns();
 }
 

@@ -25,7 +25,7 @@ class RowTable {
  public:
   static constexpr Index kBlock = 4096;
 
-  explicit RowTable(const RowSource& source);
+  explicit RowTable(const RowSource& source, const Progress& progress = {});
 
   Index size() const { return size_; }
   bool is_free(Index row) const { return pattern_of(row) >= 0; }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "batten/error.h"
 #include "batten/parallel/parallel.h"
 
 namespace batten {
@@ -29,7 +28,7 @@ void StopRule::report(double first, double now) const {
   if (!progress) return;
   const double whole = std::log(std::max(first, 1e-300) / std::max(tolerance, 1e-300));
   const double done = whole > 0.0 ? std::log(std::max(first, 1e-300) / std::max(now, 1e-300)) / whole : 1.0;
-  if (!progress(std::clamp(done, 0.0, 1.0))) throw Error(ErrorCode::Cancelled, "cancelled");
+  report_progress(progress, std::clamp(done, 0.0, 1.0));
 }
 
 double max_row_norm(const Values& values) {

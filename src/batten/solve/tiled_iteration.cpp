@@ -322,7 +322,9 @@ ErrorSummary summarise(const Tiling& tiling, const Columns& columns) {
 
 }  // namespace
 
-TiledIteration::TiledIteration(const RowSource& rows) : tiles_(std::make_unique<Tiles>(make_tiling(RowTable(rows)))) {}
+TiledIteration::TiledIteration(const RowSource& rows, const Progress& progress)
+    : tiles_(std::make_unique<Tiles>(
+          make_tiling(RowTable(rows, progress_within(progress, 0.0, 0.4)), progress_within(progress, 0.4, 1.0)))) {}
 
 TiledIteration::~TiledIteration() = default;
 TiledIteration::TiledIteration(TiledIteration&&) noexcept = default;

@@ -53,7 +53,8 @@ class TiledIteration {
  public:
   static constexpr int kStepsPerRound = 8;
 
-  explicit TiledIteration(const RowSource& rows);
+  /// Throws Error(Cancelled).
+  explicit TiledIteration(const RowSource& rows, const Progress& progress = {});
   ~TiledIteration();
   TiledIteration(TiledIteration&&) noexcept;
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "batten/parallel/parallel.h"
 
@@ -23,7 +24,7 @@ Index tile_count_for(Index free_count) {
 
 /// Grows the tiles breadth-first one after the other, each from where the ones before stopped: compact patches. Returns
 /// the free rows in the order of tiles, tile t being [t n/count, (t+1) n/count).
-Buffer<Index> grow_tiles(const RowTable& rows, Index count) {
+Buffer<Index> grow_tiles(const RowTable& rows, Index count, const Progress& progress) {
   Buffer<Index> order;
   order.reserve(static_cast<std::size_t>(rows.free_count()));
   std::vector<std::uint8_t> taken(static_cast<std::size_t>(rows.size()), 0);
@@ -31,6 +32,7 @@ Buffer<Index> grow_tiles(const RowTable& rows, Index count) {
   std::size_t next_seed = 0;
   Index scan = 0;
   for (Index t = 0; t < count; ++t) {
+    report_progress(progress, static_cast<double>(t) / count);
     const auto target = static_cast<std::size_t>(std::int64_t{rows.free_count()} * (t + 1) / count);
     std::size_t head = order.size();
     while (order.size() < target) {
@@ -72,10 +74,8 @@ class TileBuilder {
   TileBuilder(const RowTable& rows, const Buffer<Index>& order, const Buffer<Index>& place)
       : rows_(rows), order_(order), place_(place), local_(order.size(), -1) {}
 
-  /// False when the tile grows too large.
-  bool build(Index first, Index own_count, Tile& tile) {
-    tile.first = first;
-    tile.own_count = own_count;
+  /// The tile has its own unknowns already. False when it grows too large.
+  bool build(Tile& tile) {
     const bool fits = add_rings(tile);
     if (fits) write_rows(tile);
     for (const Index ghost : tile.ghosts) local_[ghost] = -1;
@@ -186,6 +186,28 @@ class TileBuilder {
   Buffer<std::uint16_t> new_place_;
 };
 
+/// Each thread takes a run of neighbouring tiles, some between two reports. False when a tile grows too large.
+bool build_tiles(const RowTable& rows, const Buffer<Index>& place, Tiling& tiling, const Progress& progress) {
+  constexpr std::ptrdiff_t kBetweenReports = 32;
+  const auto count = static_cast<std::ptrdiff_t>(tiling.tiles.size());
+  if (count == 0) return true;
+  const std::ptrdiff_t groups = std::min<std::ptrdiff_t>(count, thread_count());
+  const std::ptrdiff_t group_size = block_count(count, groups);
+  const std::ptrdiff_t step = progress ? kBetweenReports : group_size;
+  std::vector<std::optional<TileBuilder>> builders(static_cast<std::size_t>(groups));
+  std::vector<std::uint8_t> fits(static_cast<std::size_t>(count), 0);
+  for (std::ptrdiff_t done = 0; done < group_size; done += step) {
+    report_progress(progress, static_cast<double>(done) / static_cast<double>(group_size));
+    parallel_for_each(groups, [&](std::ptrdiff_t group) {
+      if (!builders[group]) builders[group].emplace(rows, tiling.order, place);
+      const std::ptrdiff_t begin = group * group_size + done;
+      const std::ptrdiff_t end = std::min({begin + step, (group + 1) * group_size, count});
+      for (std::ptrdiff_t t = begin; t < end; ++t) fits[t] = builders[group]->build(tiling.tiles[t]) ? 1 : 0;
+    });
+  }
+  return std::count(fits.begin(), fits.end(), 0) == 0;
+}
+
 /// The spectral radius of a matrix of weights |G| is at most max_i (|G| u)_i / u_i for any positive u; power iteration
 /// on u brings the bound down to it (Collatz 1942, Wielandt 1950).
 double collatz_bound(const RowTable& rows) {
@@ -250,29 +272,27 @@ StepSegment step_for(Index count) {
 
 }  // namespace
 
-Tiling make_tiling(const RowTable& rows) {
+Tiling make_tiling(const RowTable& rows, const Progress& progress) {
   Tiling tiling;
   tiling.patterns = rows.patterns();
   const Index count = tile_count_for(rows.free_count());
   const auto begin_of = [&](std::ptrdiff_t t) { return static_cast<Index>(rows.free_count() * t / count); };
   // Growing is serial; the bound keeps the other threads busy meanwhile.
-  parallel_both([&] { tiling.order = grow_tiles(rows, count); }, [&] { tiling.upper_bound = collatz_bound(rows); });
+  parallel_both([&] { tiling.order = grow_tiles(rows, count, progress_within(progress, 0.0, 0.3)); },
+                [&] { tiling.upper_bound = collatz_bound(rows); });
   Buffer<Index> place(static_cast<std::size_t>(rows.size()), -1);
-  parallel_for_each(count, [&](std::ptrdiff_t t) {
+  const auto sort_tile = [&](std::ptrdiff_t t) {
     std::stable_sort(tiling.order.begin() + begin_of(t), tiling.order.begin() + begin_of(t + 1),
                      [&](Index a, Index b) { return rows.pattern_of(a) < rows.pattern_of(b); });
     for (Index i = begin_of(t); i < begin_of(t + 1); ++i) place[tiling.order[i]] = i;
-  });
+  };
+  parallel_for_each(count, sort_tile, progress_within(progress, 0.3, 0.4));
   tiling.tiles.resize(static_cast<std::size_t>(count));
-  std::vector<std::uint8_t> fits(static_cast<std::size_t>(count), 0);
-  const std::ptrdiff_t groups = std::min<std::ptrdiff_t>(count, thread_count());
-  parallel_for_each(groups, [&](std::ptrdiff_t group) {
-    TileBuilder builder(rows, tiling.order, place);
-    for (std::ptrdiff_t t = count * group / groups; t < count * (group + 1) / groups; ++t) {
-      fits[t] = builder.build(begin_of(t), begin_of(t + 1) - begin_of(t), tiling.tiles[t]) ? 1 : 0;
-    }
-  });
-  if (std::count(fits.begin(), fits.end(), 0) > 0) {
+  for (Index t = 0; t < count; ++t) {
+    tiling.tiles[t].first = begin_of(t);
+    tiling.tiles[t].own_count = begin_of(t + 1) - begin_of(t);
+  }
+  if (!build_tiles(rows, place, tiling, progress_within(progress, 0.4, 1.0))) {
     tiling.tiles.clear();
     tiling.overlap = std::numeric_limits<double>::infinity();
     return tiling;

@@ -44,9 +44,9 @@ struct Tiling {
   double upper_bound = 0.0;
 };
 
-/// Throws nothing; a tiling that would need tiles of over 65,536 unknowns comes back with overlap infinite and no
-/// tiles.
-Tiling make_tiling(const RowTable& rows);
+/// Throws Error(Cancelled) only; a tiling that would need tiles of over 65,536 unknowns comes back with overlap
+/// infinite and no tiles.
+Tiling make_tiling(const RowTable& rows, const Progress& progress = {});
 
 /// One step on the rows of rings 0 .. last_ring:
 /// previous <- now + momentum (now - previous) + step (residual - (now + sum normalised now)).

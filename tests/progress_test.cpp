@@ -1,0 +1,107 @@
+/// Every operation that may take long reports how far it is, and stops when it is asked to.
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "batten/interpolate/interpolator.h"
+#include "batten/limit/limit_matrix.h"
+#include "batten/mesh/primitives.h"
+#include "batten/parallel/parallel.h"
+#include "batten/refine/refinement.h"
+#include "io/io_test_tools.h"
+
+namespace batten {
+namespace {
+
+using Operation = std::function<void(const Progress&)>;
+
+struct Named {
+  const char* name;
+  Operation run;
+};
+
+/// The operations on a mesh large enough for several blocks.
+std::vector<Named> operations(const io_tests::TemporaryFolder& folder) {
+  static const Mesh mesh = torus(300, 200);
+  static const Topology topology(mesh);
+  static const Scheme scheme;
+  static const Interpolator interpolator(topology, scheme);
+  std::vector<Named> all{
+      {"topology", [](const Progress& progress) { Topology(mesh, progress); }},
+      {"refine", [](const Progress& progress) { refine(topology, scheme, mesh.points, 2, progress); }},
+      {"limit matrix", [](const Progress& progress) { LimitMatrix(topology, scheme, {}, progress); }},
+      {"limit positions", [](const Progress& progress) { interpolator.limit_matrix().apply(mesh.points, progress); }},
+      {"limit normals",
+       [](const Progress& progress) { limit_normals(topology, scheme, mesh.points, LimitMasks::Exact, progress); }},
+      {"interpolator", [](const Progress& progress) { Interpolator(topology, scheme, {}, progress); }},
+      {"solve", [](const Progress& progress) { interpolator.solve(mesh.points, progress); }},
+      {"interpolate", [](const Progress& progress) { interpolate(mesh, {}, progress); }}};
+  for (const char* name : {"m.obj", "m.ply", "m.off", "m.stl"}) {
+    const std::string path = folder.path(name);
+    all.push_back({"write", [path](const Progress& progress) { write_mesh(path, mesh, {}, progress); }});
+    all.push_back({"read", [path](const Progress& progress) { read_mesh(path, "", progress); }});
+  }
+  return all;
+}
+
+TEST(LongWork, ReportsRisingFractionsOnTheCallersThread) {
+  const io_tests::TemporaryFolder folder;
+  for (const Named& operation : operations(folder)) {
+    SCOPED_TRACE(operation.name);
+    std::vector<double> fractions;
+    operation.run([&, caller = std::this_thread::get_id()](double done) {
+      EXPECT_EQ(std::this_thread::get_id(), caller);
+      fractions.push_back(done);
+      return true;
+    });
+    ASSERT_FALSE(fractions.empty());
+    EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+    EXPECT_GE(fractions.front(), 0.0);
+    EXPECT_LE(fractions.back(), 1.0);
+  }
+}
+
+TEST(LongWork, StopsAtWhicheverReportItIsAskedTo) {
+  const io_tests::TemporaryFolder folder;
+  for (const Named& operation : operations(folder)) {
+    SCOPED_TRACE(operation.name);
+    int calls = 0;
+    operation.run([&](double /*done*/) { return ++calls > 0; });
+    for (int stop = 1; stop <= calls; stop += std::max(calls / 7, 1)) {
+      int seen = 0;
+      io_tests::expect_error([&] { operation.run([&](double /*done*/) { return ++seen != stop; }); },
+                             ErrorCode::Cancelled, "cancelled");
+      EXPECT_EQ(seen, stop);
+    }
+  }
+}
+
+TEST(LongWork, ACancelledWriteLeavesTheOldFileAndNothingElse) {
+  const io_tests::TemporaryFolder folder;
+  io_tests::make_file(folder.path("m.obj"), "# old\n");
+  int calls = 0;
+  const auto late = [&](double done) { return ++calls < 2 || done < 0.5; };
+  io_tests::expect_error([&] { write_mesh(folder.path("m.obj"), torus(300, 200), {}, late); }, ErrorCode::Cancelled,
+                         "");
+  EXPECT_GT(calls, 1);
+  EXPECT_EQ(io_tests::file_text(folder.path("m.obj")), "# old\n");
+  EXPECT_EQ(folder.file_count(), 1);
+}
+
+TEST(LongWork, ACallbackChangesNoBit) {
+  const Mesh mesh = torus(300, 200);
+  const auto go_on = [](double /*done*/) { return true; };
+  const Mesh watched = interpolate(mesh, {}, go_on);
+  EXPECT_TRUE(io_tests::same_bits(watched.points, interpolate(mesh).points));
+}
+
+TEST(LongWork, OfTwoPiecesAtOnceTheFirstRunsOnTheCallersThread) {
+  for (int i = 0; i < 100; ++i) {
+    std::thread::id first;
+    parallel_both([&] { first = std::this_thread::get_id(); }, [] {});
+    ASSERT_EQ(first, std::this_thread::get_id());
+  }
+}
+
+}  // namespace
+}  // namespace batten
