@@ -1,14 +1,15 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <map>
-
 #include "batten/mesh/check.h"
+#include "batten/mesh/places.h"
+#include "batten/mesh/summary.h"
 #include "batten/parallel/parallel.h"
 #include "cli/common.h"
 
 namespace batten::cli {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 /// "3: 12, 4: 500, 5: 8", the rare ones gathered.
 std::string histogram_text(const std::map<Index, Index>& histogram) {
@@ -25,8 +26,8 @@ std::string histogram_text(const std::map<Index, Index>& histogram) {
   return rest > 0 ? text + ", more: " + grouped(rest) : text;
 }
 
-nlohmann::ordered_json histogram_json(const std::map<Index, Index>& histogram) {
-  nlohmann::ordered_json json;
+Json histogram_json(const std::map<Index, Index>& histogram) {
+  Json json = Json::object();
   for (const auto& entry : histogram) json[std::to_string(entry.first)] = entry.second;
   return json;
 }
@@ -37,71 +38,190 @@ std::map<Index, Index> face_sizes(const Mesh& mesh) {
   return sizes;
 }
 
-void describe_topology(const Topology& topology, Table& table, nlohmann::ordered_json& json) {
-  std::map<Index, Index> interior;
-  std::map<Index, Index> boundary;
-  Index boundary_edges = 0;
-  for (Index v = 0; v < topology.vertex_count(); ++v) {
-    if (topology.is_isolated(v)) continue;
-    const bool open = topology.is_boundary_vertex(v);
-    ++(open ? boundary : interior)[topology.vertex_face_count(v) + (open ? 1 : 0)];
+/// "3: 2 closed of genus 0; 1 of genus 1 with 2 boundary loops"
+std::string components_text(const std::vector<ComponentSummary>& components) {
+  std::map<std::pair<Index, Index>, Index> kinds;
+  for (const ComponentSummary& component : components) ++kinds[{component.boundary_loops, component.genus()}];
+  std::string text = kinds.size() > 1 ? grouped(static_cast<Index>(components.size())) + ": " : "";
+  std::size_t shown = 0;
+  for (const auto& kind : kinds) {
+    if (shown++ > 0) text += "; ";
+    if (shown > 4) return text + "others";
+    const Index loops = kind.first.first;
+    text += fmt::format("{} {}of genus {}{}", grouped(kind.second), loops == 0 ? "closed " : "", kind.first.second,
+                        loops == 0 ? "" : " with " + count_of(loops, "boundary loop", "boundary loops"));
   }
-  for (Index e = 0; e < topology.edge_count(); ++e) boundary_edges += topology.is_boundary_edge(e) ? 1 : 0;
-  const Index isolated = isolated_count(topology);
-  const Index components = connected_components(topology).count - isolated;
-  const Index euler = topology.vertex_count() - isolated - topology.edge_count() + topology.face_count();
-  table.add("edges", fmt::format("{} ({} on the boundary)", grouped(topology.edge_count()), grouped(boundary_edges)));
-  table.add("components", grouped(components));
-  if (boundary_edges == 0) table.add("genus", grouped(components - euler / 2));
-  table.add("valences", histogram_text(interior));
-  if (!boundary.empty()) table.add("at the boundary", histogram_text(boundary));
+  return text;
+}
+
+Json components_json(const std::vector<ComponentSummary>& components) {
+  Json json = Json::array();
+  for (const ComponentSummary& component : components) {
+    json.push_back({{"first_vertex", component.first_vertex},
+                    {"vertices", component.vertices},
+                    {"edges", component.edges},
+                    {"faces", component.faces},
+                    {"genus", component.genus()},
+                    {"boundary_edges", component.boundary_edges},
+                    {"boundary_loops", component.boundary_loops}});
+  }
+  return json;
+}
+
+void describe_creases(const MeshSummary& summary, Table& table, Json& json) {
+  json["sharp_edges"] = summary.sharp_edges;
+  json["semi_sharp_edges"] = summary.semi_sharp_edges;
+  json["sharpness"] = {summary.least_sharpness, summary.most_sharpness};
+  json["darts"] = summary.darts;
+  if (summary.sharp_edges == 0) return;
+  table.add("creases", fmt::format("{} inside, {} of them semi-sharp; sharpness {:g} to {:g}{}",
+                                   count_of(summary.sharp_edges, "edge", "edges"), grouped(summary.semi_sharp_edges),
+                                   summary.least_sharpness, summary.most_sharpness,
+                                   summary.darts > 0 ? "; " + count_of(summary.darts, "dart", "darts") : ""));
+}
+
+void describe_topology(const Topology& topology, Table& table, Json& json) {
+  const MeshSummary summary = summarize(topology);
+  const Index isolated = summary.isolated_vertices;
+  if (isolated > 0) table.add("isolated", count_of(isolated, "vertex has", "vertices have") + " no face");
+  table.add("edges", grouped(topology.edge_count()));
+  if (!summary.components.empty()) table.add("components", components_text(summary.components));
+  if (summary.boundary_loops > 0) {
+    table.add("boundaries", fmt::format("{}, {}", count_of(summary.boundary_loops, "loop", "loops"),
+                                        count_of(summary.boundary_edges, "edge", "edges")));
+  }
+  if (!summary.valences.empty()) table.add("valences", histogram_text(summary.valences));
+  if (!summary.boundary_valences.empty()) table.add("at the boundary", histogram_text(summary.boundary_valences));
   json["edges"] = topology.edge_count();
-  json["boundary_edges"] = boundary_edges;
-  json["components"] = components;
-  json["euler_characteristic"] = euler;
   json["isolated_vertices"] = isolated;
-  json["valences"] = histogram_json(interior);
-  json["boundary_valences"] = histogram_json(boundary);
+  json["boundary_edges"] = summary.boundary_edges;
+  json["boundary_loops"] = summary.boundary_loops;
+  json["euler_characteristic"] = topology.vertex_count() - isolated - topology.edge_count() + topology.face_count();
+  json["components"] = components_json(summary.components);
+  json["valences"] = histogram_json(summary.valences);
+  json["boundary_valences"] = histogram_json(summary.boundary_valences);
+  describe_creases(summary, table, json);
+}
+
+/// Takes the mesh as the control points of a surface and finds them again from the limit positions.
+void describe_interpolation(const Mesh& mesh, const Topology& topology, const Scheme& scheme, Table& table,
+                            Json& json) {
+  const Interpolator interpolator(topology, scheme);
+  const Values targets = interpolator.limit_matrix().apply(mesh.points);
+  const Interpolant found = interpolator.solve(targets);
+  const double diagonal = bounding_diagonal(targets);
+  const double error = diagonal > 0.0 ? found.max_error / diagonal : found.max_error;
+  table.add("interpolation", found.singular_components == 0
+                                 ? std::string("no component is singular")
+                                 : count_of(found.singular_components, "component is", "components are") +
+                                       " singular: a surface passes through some sets of points only");
+  table.add("self-check",
+            fmt::format("a known surface was found again by {} in {}, to {:.2g} of the diagonal{}",
+                        found.report.method_name, count_of(found.report.iterations, "iteration", "iterations"), error,
+                        found.report.converged ? "" : ": NOT as exact as asked"));
+  json["interpolation"] = {{"singular_components", found.singular_components},
+                           {"method", found.report.method_name},
+                           {"iterations", found.report.iterations},
+                           {"converged", found.report.converged},
+                           {"max_error", found.max_error},
+                           {"relative_error", error}};
+}
+
+struct KindName {
+  const char* word;
+  const char* one;
+  const char* many;
+};
+
+KindName name_of(ErrorCode kind) {
+  switch (kind) {
+    case ErrorCode::NotFinite:
+      return {"not-finite", "value that is not a finite number", "values that are not finite numbers"};
+    case ErrorCode::IndexOutOfRange:
+      return {"index-out-of-range", "index out of range", "indices out of range"};
+    case ErrorCode::DegenerateFace:
+      return {"degenerate-face", "degenerate face", "degenerate faces"};
+    case ErrorCode::RepeatedFace:
+      return {"repeated-face", "repeated face", "repeated faces"};
+    case ErrorCode::NonManifoldEdge:
+      return {"non-manifold-edge", "edge of more than two faces", "edges of more than two faces"};
+    case ErrorCode::NonManifoldVertex:
+      return {"non-manifold-vertex", "vertex of several fans of faces", "vertices of several fans of faces"};
+    case ErrorCode::InconsistentFaces:
+      return {"inconsistent-face", "face against its neighbours' direction",
+              "faces against their neighbours' direction"};
+    case ErrorCode::NonOrientable:
+      return {"non-orientable", "component without an orientation", "components without an orientation"};
+    case ErrorCode::BadArgument:
+      return {"tag", "tag on what is not there", "tags on what is not there"};
+    default:
+      return {"arrays", "fault of the arrays", "faults of the arrays"};
+  }
+}
+
+/// The count of each kind, and the first few; the advice once.
+void describe_problems(const std::vector<MeshProblem>& problems, Table& table, Json& json) {
+  constexpr std::size_t kShown = 3;
+  json["problems"] = Json::array();
+  for (const MeshProblem& problem : problems) {
+    const KindName name = name_of(problem.kind);
+    table.add("problem", count_of(static_cast<std::int64_t>(problem.count), name.one, name.many));
+    for (std::size_t i = 0; i < std::min(kShown, problem.messages.size()); ++i) {
+      const std::string& message = problem.messages[i];
+      table.add("", "  " + (i == 0 ? message : message.substr(0, message.find(';'))));
+    }
+    if (problem.count > kShown) table.add("", fmt::format("  and {} more", grouped(problem.count - kShown)));
+    json["problems"].push_back({{"kind", name.word}, {"count", problem.count}, {"first", problem.messages}});
+  }
+}
+
+/// What --repair would do, where there is something.
+void describe_repair(const Mesh& mesh, Table& table, Json& json) {
+  const RepairResult repaired = repair(mesh);
+  if (!repaired.changes.empty()) add_changes(table, "--repair would have", repaired.changes);
+  json["repair_would"] = repairs_json(repaired)["changes"];
+}
+
+void describe_mesh(const Mesh& mesh, Table& table, Json& json) {
+  const Index coincident = coincident_count(mesh.points);
+  table.add("vertices", grouped(mesh.vertex_count()));
+  table.add("faces", fmt::format("{} ({})", grouped(mesh.face_count()), histogram_text(face_sizes(mesh))));
+  table.add("diagonal", fmt::format("{:g}", bounding_diagonal(mesh.points)));
+  if (coincident > 0) {
+    table.add("coincident", count_of(coincident, "vertex lies", "vertices lie") + " where an earlier one lies");
+  }
+  if (!mesh.corners.empty()) table.add("corners", grouped(static_cast<std::int64_t>(mesh.corners.size())));
+  if (!mesh.holes.empty()) table.add("holes", grouped(static_cast<std::int64_t>(mesh.holes.size())));
+  json["vertices"] = mesh.vertex_count();
+  json["faces"] = mesh.face_count();
+  json["diagonal"] = bounding_diagonal(mesh.points);
+  json["coincident_vertices"] = coincident;
+  json["face_sizes"] = histogram_json(face_sizes(mesh));
+  json["creases"] = mesh.creases.size();
+  json["corners"] = mesh.corners.size();
+  json["holes"] = mesh.holes.size();
 }
 
 }  // namespace
 
 int run_info(const CommonArguments& arguments) {
   const ThreadLimit limit(arguments.threads);
-  const Mesh mesh = read_input(arguments);
-  const std::vector<MeshProblem> problems = check(mesh, 10);
+  Json repairs;
+  const Mesh mesh = read_input(arguments, &repairs);
   Table table;
-  nlohmann::ordered_json json{{"verb", "info"},
-                              {"input", arguments.input},
-                              {"vertices", mesh.vertex_count()},
-                              {"faces", mesh.face_count()},
-                              {"diagonal", bounding_diagonal(mesh.points)},
-                              {"face_sizes", histogram_json(face_sizes(mesh))},
-                              {"creases", mesh.creases.size()},
-                              {"corners", mesh.corners.size()},
-                              {"holes", mesh.holes.size()}};
-  table.add("vertices", grouped(mesh.vertex_count()));
-  table.add("faces", fmt::format("{} ({})", grouped(mesh.face_count()), histogram_text(face_sizes(mesh))));
-  table.add("diagonal", fmt::format("{:g}", bounding_diagonal(mesh.points)));
-  const auto semi_sharp = std::count_if(mesh.creases.begin(), mesh.creases.end(), [](const Crease& crease) {
-    return crease.sharpness > 0.0 && crease.sharpness < kInfiniteSharpness;
-  });
-  if (!mesh.creases.empty()) {
-    table.add("creases", fmt::format("{} ({} semi-sharp)", grouped(static_cast<std::int64_t>(mesh.creases.size())),
-                                     grouped(semi_sharp)));
-  }
-  if (!mesh.corners.empty()) table.add("corners", grouped(static_cast<std::int64_t>(mesh.corners.size())));
-  if (!mesh.holes.empty()) table.add("holes", grouped(static_cast<std::int64_t>(mesh.holes.size())));
+  Json json{{"verb", "info"}, {"input", arguments.input}, {"repairs", repairs}};
+  describe_mesh(mesh, table, json);
+  const std::vector<MeshProblem> problems = check(mesh, 10);
+  describe_problems(problems, table, json);
   if (problems.empty()) {
-    describe_topology(Topology(mesh), table, json);
-    table.add("surface", scheme_text(choose_scheme(mesh)));
-  } else {
-    json["problems"] = nlohmann::ordered_json::array();
-    for (const MeshProblem& problem : problems) {
-      table.add("problem", problem.message);
-      json["problems"].push_back(problem.message);
-    }
+    const Topology topology(mesh);
+    const Scheme scheme = choose_scheme(mesh);
+    describe_topology(topology, table, json);
+    table.add("surface", scheme_text(scheme));
+    json["scheme"] = scheme_json(scheme);
+    if (mesh.face_count() > 0) describe_interpolation(mesh, topology, scheme, table, json);
   }
+  if (!arguments.repair) describe_repair(mesh, table, json);
   table.print(arguments);
   write_json(arguments.report, json);
   return 0;

@@ -9,6 +9,7 @@
 #include "batten/mesh/mesh.h"
 #include "batten/mesh/primitives.h"
 #include "batten/mesh/repair.h"
+#include "batten/mesh/summary.h"
 #include "batten/mesh/topology.h"
 #include "batten/mesh/triangulate.h"
 #include "batten/parallel/parallel.h"

@@ -201,7 +201,27 @@ TEST_F(Tool, InfoNamesWhatIsWrong) {
   EXPECT_EQ(good.status, 0);
   EXPECT_NE(good.out.find("genus"), std::string::npos);
   write("fin.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 2 1 4\nf 1 2 5\n");
-  EXPECT_NE(run("info fin.obj").out.find("edge (0, 1) has 3 faces"), std::string::npos);
+  const Outcome bad = run("info fin.obj --report r.json");
+  EXPECT_NE(bad.out.find("1 edge of more than two faces"), std::string::npos) << bad.out;
+  EXPECT_NE(bad.out.find("edge (0, 1) has 3 faces"), std::string::npos) << bad.out;
+  EXPECT_NE(bad.out.find("--repair would have  split 1 edge"), std::string::npos) << bad.out;
+  const auto report = nlohmann::json::parse(text_of(path("r.json")));
+  EXPECT_EQ(report["problems"][0]["kind"], "non-manifold-edge");
+  EXPECT_EQ(report["problems"][0]["count"], 1);
+  EXPECT_EQ(report["repair_would"][0]["kind"], "split-edges");
+}
+
+TEST_F(Tool, InfoDescribesTheMeshAndChecksItself) {
+  ASSERT_EQ(run("info " + kModels + "pipe-joint.obj --report r.json").status, 0);
+  const auto report = nlohmann::json::parse(text_of(path("r.json")));
+  EXPECT_TRUE(report["problems"].empty());
+  EXPECT_EQ(report["components"][0]["boundary_loops"], 4);
+  EXPECT_EQ(report["components"][0]["genus"], 0);
+  EXPECT_EQ(report["boundary_edges"], 48);
+  EXPECT_EQ(report["interpolation"]["singular_components"], 0);
+  EXPECT_LE(report["interpolation"]["relative_error"].get<double>(), 1e-10);
+  const Outcome cube = run("info " + kModels + "cube.obj");
+  EXPECT_NE(cube.out.find("1 component is singular"), std::string::npos) << cube.out;
 }
 
 TEST_F(Tool, ConvertsBetweenAllFormats) {

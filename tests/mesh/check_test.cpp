@@ -129,7 +129,8 @@ TEST_P(Gate, IsExplainedByCheck) {
   const std::vector<MeshProblem> problems = check(GetParam().mesh);
   ASSERT_FALSE(problems.empty());
   EXPECT_EQ(problems.front().kind, GetParam().code);
-  EXPECT_NE(problems.front().message.find(GetParam().element), std::string::npos) << problems.front().message;
+  const std::string message = problems.front().messages.at(0);
+  EXPECT_NE(message.find(GetParam().element), std::string::npos) << message;
 }
 
 TEST(Check, FindsNothingInMeshesThatTopologyAccepts) {
@@ -140,21 +141,43 @@ TEST(Check, FindsNothingInMeshesThatTopologyAccepts) {
   }
 }
 
-TEST(Check, ReportsAtMostTheLimitOfEachKind) {
+TEST(Check, CountsAllAndNamesAtMostTheLimitOfEachKind) {
   Mesh mesh = cube();
   mesh.points.setConstant(std::nan(""));
   mesh.holes = {7, 8, 9};
-  EXPECT_EQ(check(mesh, 1).size(), 2U);
-  EXPECT_EQ(check(mesh, 2).size(), 4U);
-  EXPECT_EQ(check(mesh, 100).size(), 11U);
+  for (const std::size_t limit : {1U, 2U, 100U}) {
+    const std::vector<MeshProblem> problems = check(mesh, limit);
+    ASSERT_EQ(problems.size(), 2U);
+    EXPECT_EQ(problems[0].kind, ErrorCode::NotFinite);
+    EXPECT_EQ(problems[0].count, 8U);
+    EXPECT_EQ(problems[0].messages.size(), std::min<std::size_t>(limit, 8));
+    EXPECT_EQ(problems[1].kind, ErrorCode::IndexOutOfRange);
+    EXPECT_EQ(problems[1].count, 3U);
+    EXPECT_EQ(problems[1].messages.size(), std::min<std::size_t>(limit, 3));
+  }
+}
+
+TEST(Check, OneFaultDoesNotHideAnother) {
+  // A face that uses a vertex twice, a fin, a bow tie, a flipped face and a crease on no edge.
+  Mesh mesh = mesh_of_faces(
+      16,
+      {{0, 1, 1}, {2, 3, 4}, {3, 2, 5}, {2, 3, 6}, {7, 8, 9}, {9, 10, 11}, {12, 13, 14}, {12, 13, 15}, {14, 13, 15}});
+  mesh.creases = {{0, 15, 1.0}};
+  std::vector<ErrorCode> kinds;
+  for (const MeshProblem& problem : check(mesh)) kinds.push_back(problem.kind);
+  EXPECT_EQ(kinds,
+            (std::vector<ErrorCode>{ErrorCode::DegenerateFace, ErrorCode::NonManifoldEdge, ErrorCode::InconsistentFaces,
+                                    ErrorCode::NonManifoldVertex, ErrorCode::BadArgument}));
 }
 
 TEST(Check, NamesEachFlippedFaceOfTheMinority) {
   const Mesh mesh = one_face_flipped(one_face_flipped(dodecahedron(), 2), 9);
   const std::vector<MeshProblem> problems = check(mesh, 10);
-  ASSERT_EQ(problems.size(), 2U);
-  EXPECT_NE(problems[0].message.find("face 2 "), std::string::npos) << problems[0].message;
-  EXPECT_NE(problems[1].message.find("face 9 "), std::string::npos) << problems[1].message;
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems[0].count, 2U);
+  ASSERT_EQ(problems[0].messages.size(), 2U);
+  EXPECT_NE(problems[0].messages[0].find("face 2 "), std::string::npos) << problems[0].messages[0];
+  EXPECT_NE(problems[0].messages[1].find("face 9 "), std::string::npos) << problems[0].messages[1];
 }
 
 /// Random faces over few vertices: nearly all are refused, for every reason at once.

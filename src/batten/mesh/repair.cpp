@@ -62,11 +62,11 @@ void weld(Draft& draft, const RepairOptions& options, RepairLog& log) {
   // Ends: a collapse takes corners away, a stitch open edges. The diagonal is that of what is there, so that the last
   // round is what another repair would do.
   for (;;) {
-    const double tolerance = options.weld > 0.0 ? options.weld * diagonal_of(draft) : 0.0;
-    if (collapse(draft, tolerance, log)) {
+    const Rim rim(draft, options.weld > 0.0 ? options.weld * diagonal_of(draft) : 0.0);
+    if (collapse(draft, rim, log)) {
       drop_repeated_faces(draft, log);
       split(draft, log);
-    } else if (!stitch(draft, tolerance)) {
+    } else if (!stitch(draft, rim)) {
       return;
     }
   }

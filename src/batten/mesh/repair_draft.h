@@ -1,7 +1,5 @@
 /// \file A mesh under repair: its faces, and where each corner, face and vertex comes from. The steps of mesh/repair.h.
 #pragma once
-#include <functional>
-
 #include "batten/mesh/repair.h"
 #include "batten/mesh/sheets.h"
 #include "batten/mesh/sides.h"
@@ -64,11 +62,6 @@ bool simplify_faces(Draft& draft, RepairLog& log);
 /// are not given twice.
 void drop_repeated_faces(Draft& draft, RepairLog& log);
 
-/// Visits faces that have the same vertices around: visit(first, later, same_direction), the lowest face first. `names`
-/// has the vertex of each corner; faces with a mark in `skipped` are left out. O(H log H).
-void for_each_repeated_face(const Buffer<Index>& offsets, const Buffer<Index>& names,
-                            const Buffer<std::uint8_t>& skipped, const std::function<void(Index, Index, bool)>& visit);
-
 /// Steps 2 to 4: afterwards the draft is an oriented manifold.
 void split(Draft& draft, RepairLog& log);
 
@@ -76,14 +69,21 @@ void split(Draft& draft, RepairLog& log);
 /// manifold.
 void turn_outwards(Draft& draft);
 
-/// Open edges without length are closed up, single faces that lie on another are dropped; needs split() afterwards.
-/// The draft must be a manifold. True when anything was.
-bool collapse(Draft& draft, double tolerance, RepairLog& log);
-/// Step 5: welds what can be at one go; the draft stays an oriented manifold. True when anything was.
-bool stitch(Draft& draft, double tolerance);
+/// The open edges of a draft that is a manifold.
+struct Rim {
+  /// Vertices within the tolerance of each other are at one place; see place_numbers().
+  Rim(const Draft& draft, double tolerance);
 
-/// A number for each vertex in the list, equal for those that lie within the tolerance (in each coordinate) of the
-/// first of them; tolerance 0: equal coordinates. O(n log n), O(n) expected for a tolerance.
-Buffer<Index> place_numbers(const Draft& draft, const Buffer<Index>& vertices, double tolerance);
+  SideTable sides;
+  SidePairs pairs;
+  Buffer<Index> places;  ///< of each vertex at the boundary; -1 inside
+  Buffer<Index> open;    ///< sides without a partner
+};
+
+/// Open edges without length are closed up, single faces that lie on another are dropped; needs split() afterwards.
+/// True when anything was.
+bool collapse(Draft& draft, const Rim& rim, RepairLog& log);
+/// Step 5: welds what can be at one go; the draft stays an oriented manifold. True when anything was.
+bool stitch(Draft& draft, const Rim& rim);
 
 }  // namespace batten

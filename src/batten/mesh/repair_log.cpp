@@ -47,10 +47,19 @@ std::string first_elements(const RepairChange& change) {
   return text;
 }
 
+/// "12,345"
+std::string grouped(Index count) {
+  std::string text = std::to_string(count);
+  for (auto place = static_cast<std::ptrdiff_t>(text.size()) - 3; place > 0; place -= 3) {
+    text.insert(static_cast<std::size_t>(place), ",");
+  }
+  return text;
+}
+
 std::string sentence(const RepairChange& change) {
   const Wording& words = wording(change.kind);
-  const std::string text = words.before + std::to_string(change.count) + " " +
-                           (change.count == 1 ? words.one : words.many) + words.after;
+  const std::string text =
+      words.before + grouped(change.count) + " " + (change.count == 1 ? words.one : words.many) + words.after;
   return change.elements.empty() ? text : text + ": " + first_elements(change);
 }
 

@@ -1,93 +1,33 @@
 /// Welding: open edges that lie on each other become one edge; vertices follow.
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <unordered_map>
 
+#include "batten/mesh/places.h"
 #include "batten/mesh/repair_draft.h"
+#include "batten/mesh/repeated_faces.h"
 
 namespace batten {
 
-namespace {
-
 using Side = SideTable::Side;
-using Cell = std::array<std::int64_t, 3>;
 
-struct CellHash {
-  std::size_t operator()(const Cell& cell) const {
-    std::uint64_t hash = 0;
-    for (const std::int64_t x : cell) hash = (hash ^ static_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15U + (hash >> 29);
-    return hash;
+Rim::Rim(const Draft& draft, double tolerance)
+    : sides(draft.offsets, draft.vertices), pairs(pair_sides(sides)), places(draft.vertex_sources.size(), -1) {
+  for (Index c = 0; c < sides.corner_count(); ++c) {
+    if (pairs.partner[c] >= 0) continue;
+    open.push_back(c);
+    places[sides.from(c)] = places[sides.to(c)] = 0;
   }
-};
-
-Buffer<Index> equal_places(const Draft& draft, const Buffer<Index>& vertices) {
-  Buffer<Index> order(vertices.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Index>(i);
-  const auto row = [&](Index i) { return draft.input.points.row(draft.source(vertices[i])); };
-  const auto less = [&](Index i, Index j) {
-    for (int k = 0; k < 3; ++k) {
-      if (row(i)[k] != row(j)[k]) return row(i)[k] < row(j)[k];
-    }
-    return i < j;
-  };
-  std::sort(order.begin(), order.end(), less);
-  Buffer<Index> numbers(vertices.size());
-  Index number = -1;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    if (i == 0 || row(order[i]) != row(order[i - 1])) ++number;
-    numbers[order[i]] = number;
+  Buffer<Index> vertices;
+  Buffer<Index> rows;
+  for (Index v = 0; v < draft.vertex_count(); ++v) {
+    if (places[v] < 0) continue;
+    vertices.push_back(v);
+    rows.push_back(draft.source(v));
   }
-  return numbers;
+  const Buffer<Index> numbers = place_numbers(draft.input.points, rows, tolerance);
+  for (std::size_t i = 0; i < vertices.size(); ++i) places[vertices[i]] = numbers[i];
 }
 
-/// First come: a vertex takes the place of the first one within reach that took its own.
-Buffer<Index> near_places(const Draft& draft, const Buffer<Index>& vertices, double tolerance) {
-  std::unordered_map<Cell, std::vector<Index>, CellHash> cells;
-  Buffer<Index> numbers(vertices.size());
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const Eigen::Vector3d point = draft.point(vertices[i]);
-    Cell cell;
-    for (int k = 0; k < 3; ++k) cell[k] = static_cast<std::int64_t>(std::floor(point[k] / tolerance));
-    auto nearest = static_cast<Index>(i);
-    for (int neighbour = 0; neighbour < 27; ++neighbour) {
-      const auto found =
-          cells.find({cell[0] + neighbour % 3 - 1, cell[1] + neighbour / 3 % 3 - 1, cell[2] + neighbour / 9 - 1});
-      if (found == cells.end()) continue;
-      for (const Index other : found->second) {
-        const bool within = (draft.point(vertices[other]) - point).cwiseAbs().maxCoeff() <= tolerance;
-        if (within) nearest = std::min(nearest, other);
-      }
-    }
-    if (nearest == static_cast<Index>(i)) cells[cell].push_back(nearest);
-    numbers[i] = nearest;
-  }
-  return numbers;
-}
-
-/// The open edges of a manifold draft, and the places of their vertices: places[v] is -1 inside.
-struct Rim {
-  Rim(const Draft& draft, double tolerance)
-      : sides(draft.offsets, draft.vertices), pairs(pair_sides(sides)), places(draft.vertex_sources.size(), -1) {
-    for (const Side& side : sides.sorted()) {
-      if (pairs.partner[side.corner] >= 0) continue;
-      open.push_back(side.corner);
-      places[sides.from(side.corner)] = places[sides.to(side.corner)] = 0;
-    }
-    std::sort(open.begin(), open.end());
-    Buffer<Index> vertices;
-    for (Index v = 0; v < draft.vertex_count(); ++v) {
-      if (places[v] == 0) vertices.push_back(v);
-    }
-    const Buffer<Index> numbers = place_numbers(draft, vertices, tolerance);
-    for (std::size_t i = 0; i < vertices.size(); ++i) places[vertices[i]] = numbers[i];
-  }
-
-  SideTable sides;
-  SidePairs pairs;
-  Buffer<Index> places;
-  Buffer<Index> open;  ///< sides
-};
+namespace {
 
 void join_vertices(Draft& draft, DisjointSets& sets) {
   for (Index& v : draft.vertices) v = sets.root(v);
@@ -116,15 +56,8 @@ bool mark_lying_faces(const Draft& draft, const Rim& rim, Buffer<std::uint8_t>& 
 
 }  // namespace
 
-Buffer<Index> place_numbers(const Draft& draft, const Buffer<Index>& vertices, double tolerance) {
-  double largest = 0.0;
-  for (const Index v : vertices) largest = std::max(largest, draft.point(v).cwiseAbs().maxCoeff());
-  // Finer than a double tells apart, the cells' numbers would overflow.
-  return tolerance > 1e-16 * largest ? near_places(draft, vertices, tolerance) : equal_places(draft, vertices);
-}
-
-bool collapse(Draft& draft, double tolerance, RepairLog& log) {
-  const Rim rim(draft, tolerance);
+bool collapse(Draft& draft, const Rim& rim, RepairLog& log) {
+  if (rim.open.empty()) return false;
   Buffer<std::uint8_t> lying(static_cast<std::size_t>(draft.face_count()), 0);
   bool any = mark_lying_faces(draft, rim, lying);
   DisjointSets sets(draft.vertex_sources.size());
@@ -150,7 +83,7 @@ namespace {
 /// One round of welding.
 class Stitcher {
  public:
-  Stitcher(Draft& draft, double tolerance) : draft_(draft), rim_(draft, tolerance), pairs_(rim_.pairs) {}
+  Stitcher(Draft& draft, const Rim& rim) : draft_(draft), rim_(rim), pairs_(rim.pairs) {}
 
   bool run() {
     gather();
@@ -170,7 +103,9 @@ class Stitcher {
   Index to_place(Index side) const { return rim_.places[rim_.sides.to(side)]; }
   bool is_open(Index side) const { return rim_.pairs.partner[side] < 0; }
   bool is_stitch(Index side) const { return is_open(side) && pairs_.partner[side] >= 0; }
-  bool any_stitch() const { return std::any_of(rim_.open.begin(), rim_.open.end(), [&](Index s) { return is_stitch(s); }); }
+  bool any_stitch() const {
+    return std::any_of(rim_.open.begin(), rim_.open.end(), [&](Index s) { return is_stitch(s); });
+  }
 
   /// Open sides with the same two places.
   void gather() {
@@ -265,7 +200,8 @@ class Stitcher {
     mark_faces_that_touch_themselves(sets, merged, clashing);
     bool any = false;
     for (const Index side : rim_.open) {
-      const bool clash = clashing[sets.root(rim_.sides.from(side))] != 0 || clashing[sets.root(rim_.sides.to(side))] != 0;
+      const bool clash =
+          clashing[sets.root(rim_.sides.from(side))] != 0 || clashing[sets.root(rim_.sides.to(side))] != 0;
       if (!clash || !is_stitch(side)) continue;
       pairs_.part(side);
       any = true;
@@ -291,7 +227,7 @@ class Stitcher {
   }
 
   Draft& draft_;
-  const Rim rim_;
+  const Rim& rim_;
   SidePairs pairs_;  ///< the rim's and the stitches
   std::vector<Side> open_;
   std::vector<std::pair<std::size_t, std::size_t>> edges_;
@@ -299,6 +235,6 @@ class Stitcher {
 
 }  // namespace
 
-bool stitch(Draft& draft, double tolerance) { return Stitcher(draft, tolerance).run(); }
+bool stitch(Draft& draft, const Rim& rim) { return !rim.open.empty() && Stitcher(draft, rim).run(); }
 
 }  // namespace batten

@@ -21,13 +21,26 @@ void DisjointSets::join(Index a, Index b) {
 
 SideTable::SideTable(const Buffer<Index>& offsets, const Buffer<Index>& vertices, const Buffer<std::uint8_t>& skipped)
     : offsets_(offsets), vertices_(vertices), faces_(vertices.size()) {
-  sides_.reserve(vertices.size());
-  for (Index f = 0; f < face_count(); ++f) {
-    for (Index c = offsets[f]; c < offsets[f + 1]; ++c) faces_[c] = f;
-    if (!skipped.empty() && skipped[f] != 0) continue;
-    for (Index c = offsets[f]; c < offsets[f + 1]; ++c) sides_.push_back({edge_key(from(c), to(c)), c});
+  const auto for_each_side = [&](const auto& visit) {
+    for (Index f = 0; f < face_count(); ++f) {
+      if (!skipped.empty() && skipped[f] != 0) continue;
+      for (Index c = offsets[f]; c < offsets[f + 1]; ++c) visit(c, std::min(from(c), to(c)));
+    }
+  };
+  for (Index f = 0; f < face_count(); ++f) std::fill(faces_.begin() + offsets[f], faces_.begin() + offsets[f + 1], f);
+  // Counted into buckets by lower vertex, then sorted within each.
+  Index highest = -1;
+  for_each_side([&](Index /*c*/, Index low) { highest = std::max(highest, low); });
+  Buffer<Index> ends(static_cast<std::size_t>(highest) + 2, 0);
+  for_each_side([&](Index /*c*/, Index low) { ++ends[low + 1]; });
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  sides_.resize(static_cast<std::size_t>(ends.back()));
+  for_each_side([&](Index c, Index low) { sides_[ends[low]++] = {edge_key(from(c), to(c)), c}; });
+  Index begin = 0;
+  for (const Index end : ends) {
+    std::sort(sides_.begin() + begin, sides_.begin() + end);
+    begin = end;
   }
-  std::sort(sides_.begin(), sides_.end());
 }
 
 SidePairs::SidePairs(Index corner_count)

@@ -293,7 +293,7 @@ Topology::Topology(const Mesh& mesh, const Progress& progress) {
   const std::vector<MeshProblem> problems = check(mesh);
   if (problems.empty())
     throw Error(ErrorCode::BadShape, "the mesh was refused for a reason that check() does not know");
-  throw Error(problems.front().kind, problems.front().message);
+  throw Error(problems.front().kind, problems.front().messages.front());
 }
 
 Topology Topology::from_tables(TopologyTables tables) {

@@ -1,0 +1,87 @@
+#include "batten/mesh/places.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <unordered_map>
+#include <vector>
+
+namespace batten {
+
+namespace {
+
+using Cell = std::array<std::int64_t, 3>;
+
+struct CellHash {
+  std::size_t operator()(const Cell& cell) const {
+    std::uint64_t hash = 0;
+    for (const std::int64_t x : cell)
+      hash = (hash ^ static_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15U + (hash >> 29);
+    return hash;
+  }
+};
+
+Buffer<Index> equal_places(const Points& points, const Buffer<Index>& rows) {
+  Buffer<Index> order(rows.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Index>(i);
+  const auto row = [&](Index i) { return points.row(rows[i]); };
+  const auto less = [&](Index i, Index j) {
+    for (int k = 0; k < 3; ++k) {
+      if (row(i)[k] != row(j)[k]) return row(i)[k] < row(j)[k];
+    }
+    return i < j;
+  };
+  std::sort(order.begin(), order.end(), less);
+  Buffer<Index> numbers(rows.size());
+  Index number = -1;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i == 0 || row(order[i]) != row(order[i - 1])) ++number;
+    numbers[order[i]] = number;
+  }
+  return numbers;
+}
+
+/// First come: a vertex takes the place of the first one within reach that took its own.
+Buffer<Index> near_places(const Points& points, const Buffer<Index>& rows, double tolerance) {
+  std::unordered_map<Cell, std::vector<Index>, CellHash> cells;
+  Buffer<Index> numbers(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Eigen::RowVector3d point = points.row(rows[i]);
+    Cell cell;
+    for (int k = 0; k < 3; ++k) cell[k] = static_cast<std::int64_t>(std::floor(point[k] / tolerance));
+    auto nearest = static_cast<Index>(i);
+    for (int neighbour = 0; neighbour < 27; ++neighbour) {
+      const auto found =
+          cells.find({cell[0] + neighbour % 3 - 1, cell[1] + neighbour / 3 % 3 - 1, cell[2] + neighbour / 9 - 1});
+      if (found == cells.end()) continue;
+      for (const Index other : found->second) {
+        const bool within = (points.row(rows[other]) - point).cwiseAbs().maxCoeff() <= tolerance;
+        if (within) nearest = std::min(nearest, other);
+      }
+    }
+    if (nearest == static_cast<Index>(i)) cells[cell].push_back(nearest);
+    numbers[i] = nearest;
+  }
+  return numbers;
+}
+
+}  // namespace
+
+Buffer<Index> place_numbers(const Points& points, const Buffer<Index>& rows, double tolerance) {
+  double largest = 0.0;
+  for (const Index row : rows) largest = std::max(largest, points.row(row).cwiseAbs().maxCoeff());
+  // Finer than a double tells apart, the cells' numbers would overflow.
+  return tolerance > 1e-16 * largest ? near_places(points, rows, tolerance) : equal_places(points, rows);
+}
+
+Index coincident_count(const Points& points) {
+  Buffer<Index> rows;
+  for (Index v = 0; v < points.rows(); ++v) {
+    if (points.row(v).allFinite()) rows.push_back(v);
+  }
+  Buffer<Index> numbers = equal_places(points, rows);
+  std::sort(numbers.begin(), numbers.end());
+  return static_cast<Index>(numbers.end() - std::unique(numbers.begin(), numbers.end()));
+}
+
+}  // namespace batten
