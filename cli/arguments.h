@@ -33,6 +33,7 @@ struct InterpolateArguments {
   CommonArguments common;
   InterpolateOptions options;
   std::string plot;  ///< residual against iteration
+  bool compare_methods = false;
 };
 
 struct SubdivideArguments {

@@ -91,4 +91,20 @@ void draw(const Mesh& surface, const Points& markers, const Mesh& lines, const P
 /// Residual against iteration, with the tolerance, both in the mesh's unit. Throws Error(NotAvailable) as draw does.
 void plot_residuals(const std::string& path, const std::string& title, const SolveReport& report, double tolerance);
 
+/// What one way of solving did on the user's mesh.
+struct MethodResult {
+  std::string name;
+  std::string failure;  ///< why there is no result, or empty
+  SolveReport report;
+  double build_seconds = 0.0;
+  double solve_seconds = 0.0;
+  double max_error = 0.0;  ///< in the mesh's unit
+};
+/// Solves by each method in turn. Throws Error(Cancelled) only; other errors are results.
+std::vector<MethodResult> compare_methods(const Topology& topology, const Scheme& scheme,
+                                          const InterpolateOptions& options, ConstValuesRef targets, bool quiet);
+void print_methods(const std::vector<MethodResult>& results, double diagonal, const CommonArguments& arguments);
+nlohmann::ordered_json methods_json(const std::vector<MethodResult>& results);
+void plot_methods(const std::string& path, const std::vector<MethodResult>& results, double tolerance);
+
 }  // namespace batten::cli

@@ -103,7 +103,8 @@ int run_interpolate(const InterpolateArguments& arguments) {
   const Scheme scheme = scheme_for(common, mesh);
   stages.finish("topology");
   const double diagonal = bounding_diagonal(mesh.points);
-  const Points targets = common.picture.empty() ? Points(0, 3) : mesh.points;
+  const Points targets = common.picture.empty() && !arguments.compare_methods ? Points(0, 3) : mesh.points;
+  std::vector<MethodResult> methods;
   Interpolant result;
   {
     const Interpolator interpolator(topology, scheme, arguments.options,
@@ -124,7 +125,14 @@ int run_interpolate(const InterpolateArguments& arguments) {
          {common.picture, 1600, 1200, 2, {}, common.quiet});
     stages.finish("picture");
   }
-  if (!arguments.plot.empty()) {
+  if (arguments.compare_methods) {
+    methods = compare_methods(topology, scheme, arguments.options, targets, common.quiet);
+    stages.finish("compare");
+  }
+  if (!arguments.plot.empty() && arguments.compare_methods) {
+    plot_methods(arguments.plot, methods, arguments.options.tolerance * diagonal);
+    stages.finish("plot");
+  } else if (!arguments.plot.empty()) {
     plot_residuals(arguments.plot, result.report.method_name, result.report, arguments.options.tolerance * diagonal);
     stages.finish("plot");
   }
@@ -137,7 +145,10 @@ int run_interpolate(const InterpolateArguments& arguments) {
   if (result.singular_components > 0) table.add("singular", singular_text(result, arguments.options.on_singular));
   table.add("time", stages.text());
   table.print(common);
-  write_json(common.report, report_json(arguments, topology, scheme, result, diagonal, repairs, stages));
+  if (arguments.compare_methods) print_methods(methods, diagonal, common);
+  nlohmann::ordered_json report = report_json(arguments, topology, scheme, result, diagonal, repairs, stages);
+  if (arguments.compare_methods) report["compared_methods"] = methods_json(methods);
+  write_json(common.report, report);
   const bool least_squares =
       result.singular_components > 0 && arguments.options.on_singular == OnSingular::LeastSquares;
   if (!result.report.converged && !least_squares) {

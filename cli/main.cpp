@@ -145,6 +145,8 @@ void add_interpolate(CLI::App& app, InterpolateArguments& arguments, int& status
   add_choice(verb, "--on-singular", options.on_singular, kOnSingular,
              "where no surface passes through such points; alpha if not given");
   add_choice(verb, "--limit-masks", options.masks, kMasks, "exact at darts and valence 2, or OpenSubdiv's masks there");
+  verb.add_flag("--compare-methods", arguments.compare_methods,
+                "solve by the papers' iterations and a direct solver too, and print (and plot) how they did");
   verb.add_option("--plot", arguments.plot, "plot the residual against the iteration")
       ->check(has_extension({".png", ".svg"}))
       ->option_text("FILE.png|.svg");

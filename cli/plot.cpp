@@ -25,7 +25,35 @@ void plot_residuals(const std::string& path, const std::string& title, const Sol
   write_plot(path, plot);
 }
 
+void plot_methods(const std::string& path, const std::vector<MethodResult>& results, double tolerance) {
+  Plot plot;
+  plot.title = "Ways to solve for the control points";
+  plot.x_label = "iterations";
+  plot.y_label = "largest residual, in the mesh's unit";
+  plot.log_y = true;
+  double last = 1.0;
+  for (const MethodResult& result : results) {
+    if (result.report.method == SolveMethod::Direct || result.report.residual_history.empty()) continue;
+    PlotLine line;
+    line.name = result.name;
+    line.x.assign(result.report.measured_after.begin(), result.report.measured_after.end());
+    line.y = result.report.residual_history;
+    last = std::max(last, line.x.back());
+    plot.lines.push_back(std::move(line));
+  }
+  plot.lines.push_back({"tolerance", {0.0, last}, {tolerance, tolerance}, true});
+  for (const MethodResult& result : results) {
+    if (result.report.method != SolveMethod::Direct || !result.failure.empty()) continue;
+    plot.lines.push_back({"direct", {0.0, last}, {result.max_error, result.max_error}, true});
+  }
+  write_plot(path, plot);
+}
+
 #else
+
+void plot_methods(const std::string& /*path*/, const std::vector<MethodResult>& /*results*/, double /*tolerance*/) {
+  throw Error(ErrorCode::NotAvailable, "this build has no plots; configure with BATTEN_WITH_RENDER=ON");
+}
 
 void plot_residuals(const std::string& /*path*/, const std::string& /*title*/, const SolveReport& /*report*/,
                     double /*tolerance*/) {

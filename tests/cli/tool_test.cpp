@@ -161,6 +161,22 @@ TEST_F(Tool, PlotsTheResidualWhereItWasMeasured) {
   EXPECT_EQ(run("interpolate " + kModels + "creature.obj --plot plot.jpg").status, 2);
 }
 
+TEST_F(Tool, ComparesTheMethods) {
+  const Outcome result =
+      run("interpolate " + kModels + "creature.obj --compare-methods --plot methods.svg --report r.json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(text_of(path("methods.svg")).find("</svg>"), std::string::npos);
+  const auto methods = nlohmann::json::parse(text_of(path("r.json")))["compared_methods"];
+  ASSERT_EQ(methods.size(), 4U);
+  for (const auto& method : methods) {
+    const auto name = method["name"].get<std::string>();
+    EXPECT_NE(result.out.find(name), std::string::npos) << result.out;
+    EXPECT_TRUE(method["converged"].get<bool>()) << name;
+  }
+  EXPECT_LT(3 * methods[0]["iterations"].get<int>(), methods[1]["iterations"].get<int>());
+  EXPECT_LT(methods[1]["iterations"].get<int>(), methods[2]["iterations"].get<int>());
+}
+
 TEST_F(Tool, SaysWhenTheToleranceWasNotReached) {
   const Outcome result = run("interpolate " + kModels + "creature.obj -o x.obj --method jacobi --max-iterations 8");
   EXPECT_EQ(result.status, 1);
