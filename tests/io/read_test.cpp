@@ -61,6 +61,14 @@ TEST(Read, AFileWithoutPermissionIsAnError) {
   expect_error([&] { read_mesh(folder.path("m.obj")); }, ErrorCode::FileNotReadable, "Permission denied");
 }
 
+TEST(Read, AFileThatBecomesShorterMeanwhileIsAnError) {
+  const TemporaryFolder folder;
+  make_file(folder.path("m.obj"), std::string(100000, '\n') + "v 0 0 0\n");
+  const auto shorten = [&](double /*done*/) { return ::truncate(folder.path("m.obj").c_str(), 10) == 0; };
+  expect_error([&] { read_mesh(folder.path("m.obj"), "", shorten); }, ErrorCode::FileNotReadable,
+               "another program made it shorter meanwhile");
+}
+
 TEST(Read, TheFormatIsTheOneAskedForElseTheExtension) {
   const TemporaryFolder folder;
   make_file(folder.path("m.OBJ"), "\xEF\xBB\xBFv 0 0 0\n");

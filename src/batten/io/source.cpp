@@ -1,6 +1,7 @@
 #include "batten/io/source.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -45,12 +46,15 @@ Buffer<char> read_file(int descriptor, const std::string& name, std::size_t size
   return bytes;
 }
 
-/// Until the end comes. A signal may be the user's wish to stop waiting: each round asks.
+/// Until the end comes. Another program may take its time to write it: the caller is asked ten times a second.
 Buffer<char> read_stream(int descriptor, const std::string& name, const Progress& progress) {
   constexpr std::size_t kFirst = std::size_t{1} << 16;
   Buffer<char> bytes(kFirst);
   for (std::size_t size = 0;;) {
     report_progress(progress, 0.0);
+    pollfd waiting{descriptor, POLLIN, 0};
+    const int ready = progress ? ::poll(&waiting, 1, 100) : 1;
+    if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
     if (size == bytes.size()) bytes.resize(2 * size);
     const ssize_t got = ::read(descriptor, bytes.data() + size, bytes.size() - size);
     if (got < 0 && errno == EINTR) continue;
