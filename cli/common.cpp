@@ -81,7 +81,7 @@ void ProgressBar::draw(double done) {
 Mesh read_input(const CommonArguments& arguments, nlohmann::ordered_json* repairs) {
   Mesh mesh = read_mesh(arguments.input, arguments.input_format, ProgressBar("reading", arguments.quiet).callback());
   if (arguments.repair) {
-    RepairResult repaired = repair(mesh);
+    RepairResult repaired = repair(mesh, {}, ProgressBar("repairing", arguments.quiet).callback());
     Table table;
     add_changes(table, "repaired", repaired.changes);
     table.print(arguments);

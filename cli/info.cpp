@@ -104,11 +104,11 @@ void describe_topology(const Topology& topology, Table& table, Json& json) {
 }
 
 /// Takes the mesh as the control points of a surface and finds them again from the limit positions.
-void describe_interpolation(const Mesh& mesh, const Topology& topology, const Scheme& scheme, Table& table,
+void describe_interpolation(const Mesh& mesh, const Topology& topology, const Scheme& scheme, bool quiet, Table& table,
                             Json& json) {
   const Interpolator interpolator(topology, scheme);
   const Values targets = interpolator.limit_matrix().apply(mesh.points);
-  const Interpolant found = interpolator.solve(targets);
+  const Interpolant found = interpolator.solve(targets, ProgressBar("self-check", quiet).callback());
   const double diagonal = bounding_diagonal(targets);
   const double error = diagonal > 0.0 ? found.max_error / diagonal : found.max_error;
   table.add("interpolation", found.singular_components == 0
@@ -176,8 +176,8 @@ void describe_problems(const std::vector<MeshProblem>& problems, Table& table, J
 }
 
 /// What --repair would do, where there is something.
-void describe_repair(const Mesh& mesh, Table& table, Json& json) {
-  const RepairResult repaired = repair(mesh);
+void describe_repair(const Mesh& mesh, bool quiet, Table& table, Json& json) {
+  const RepairResult repaired = repair(mesh, {}, ProgressBar("looking for repairs", quiet).callback());
   if (!repaired.changes.empty()) add_changes(table, "--repair would have", repaired.changes);
   json["repair_would"] = repairs_json(repaired)["changes"];
 }
@@ -219,9 +219,9 @@ int run_info(const CommonArguments& arguments) {
     describe_topology(topology, table, json);
     table.add("surface", scheme_text(scheme));
     json["scheme"] = scheme_json(scheme);
-    if (mesh.face_count() > 0) describe_interpolation(mesh, topology, scheme, table, json);
+    if (mesh.face_count() > 0) describe_interpolation(mesh, topology, scheme, arguments.quiet, table, json);
   }
-  if (!arguments.repair) describe_repair(mesh, table, json);
+  if (!arguments.repair) describe_repair(mesh, arguments.quiet, table, json);
   table.print(arguments);
   write_json(arguments.report, json);
   return 0;

@@ -10,9 +10,9 @@ int run_repair(const RepairArguments& arguments) {
   const CommonArguments& common = arguments.common;
   const ThreadLimit limit(common.threads);
   Stages stages;
-  const Mesh mesh = read_mesh(common.input, common.input_format);
+  const Mesh mesh = read_mesh(common.input, common.input_format, ProgressBar("reading", common.quiet).callback());
   stages.finish("read");
-  const RepairResult repaired = repair(mesh, arguments.options);
+  const RepairResult repaired = repair(mesh, arguments.options, ProgressBar("repairing", common.quiet).callback());
   stages.finish("repair");
   write_output(common, repaired.mesh);
   stages.finish("write");

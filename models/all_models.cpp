@@ -26,4 +26,11 @@ std::vector<Model> all_models() {
   return models;
 }
 
+std::vector<Model> broken_models() {
+  for (const Model& model : all_models()) {
+    if (model.name == "tripod") return {{"broken-tripod", broken_tripod(model.mesh)}};
+  }
+  return {};
+}
+
 }  // namespace batten::models

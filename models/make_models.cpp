@@ -1,6 +1,7 @@
 /// Writes the sample models: make_models FOLDER
 #include <exception>
 #include <iostream>
+#include <utility>
 
 #include "batten/io/io.h"
 #include "shapes.h"
@@ -11,7 +12,9 @@ int main(int count, char** words) {
     return 2;
   }
   try {
-    for (const batten::models::Model& model : batten::models::all_models())
+    std::vector<batten::models::Model> models = batten::models::all_models();
+    for (batten::models::Model& model : batten::models::broken_models()) models.push_back(std::move(model));
+    for (const batten::models::Model& model : models)
       batten::write_mesh(std::string(words[1]) + "/" + model.name + ".obj", model.mesh);
   } catch (const std::exception& error) {
     std::cerr << error.what() << "\n";

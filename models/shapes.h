@@ -18,6 +18,10 @@ Mesh torus_knot();  ///< a tube along a trefoil, 72 by 8; closed
 Mesh bracket();     ///< an angle bracket with a rib and four bolt holes; creases of 10 and of 2.5
 Mesh creature();    ///< a body, four legs, a head with a snout and ears, a tail; closed
 
+/// The tripod as a bad export may leave it: legs that share no vertices, one inside out; a fin on another; a face
+/// twice, a face without area, a vertex without a face.
+Mesh broken_tripod(const Mesh& tripod);
+
 struct Model {
   std::string name;
   Mesh mesh;
@@ -25,6 +29,9 @@ struct Model {
 
 /// All of them and the regular solids, with coordinates rounded so that files stay small.
 std::vector<Model> all_models();
+
+/// Those that no surface can be made of, for `batten repair`.
+std::vector<Model> broken_models();
 
 /// The distance to a shape's surface, negative inside: exact or a little less.
 using Field = std::function<double(const Eigen::Vector3d&)>;

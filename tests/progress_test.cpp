@@ -6,6 +6,7 @@
 #include "batten/interpolate/interpolator.h"
 #include "batten/limit/limit_matrix.h"
 #include "batten/mesh/primitives.h"
+#include "batten/mesh/repair.h"
 #include "batten/parallel/parallel.h"
 #include "batten/refine/refinement.h"
 #include "io/io_test_tools.h"
@@ -28,6 +29,7 @@ std::vector<Named> operations(const io_tests::TemporaryFolder& folder) {
   static const Interpolator interpolator(topology, scheme);
   std::vector<Named> all{
       {"topology", [](const Progress& progress) { Topology(mesh, progress); }},
+      {"repair", [](const Progress& progress) { repair(mesh, {}, progress); }},
       {"refine", [](const Progress& progress) { refine(topology, scheme, mesh.points, 2, progress); }},
       {"limit matrix", [](const Progress& progress) { LimitMatrix(topology, scheme, {}, progress); }},
       {"limit positions", [](const Progress& progress) { interpolator.limit_matrix().apply(mesh.points, progress); }},

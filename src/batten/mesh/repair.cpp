@@ -8,6 +8,7 @@
 #include "batten/error.h"
 #include "batten/mesh/repair_draft.h"
 #include "batten/mesh/repair_tags.h"
+#include "batten/progress.h"
 
 namespace batten {
 
@@ -58,10 +59,14 @@ double diagonal_of(const Draft& draft) {
   return (high - low).norm();
 }
 
-void weld(Draft& draft, const RepairOptions& options, RepairLog& log) {
+void weld(Draft& draft, const RepairOptions& options, RepairLog& log, const Progress& progress) {
+  double left = 1.0;
   // Ends: a collapse takes corners away, a stitch open edges. The diagonal is that of what is there, so that the last
   // round is what another repair would do.
   for (;;) {
+    // How many rounds there will be is not known: mostly one that welds and one that finds nothing.
+    report_progress(progress, 1.0 - left);
+    left *= 0.5;
     const Rim rim(draft, options.weld > 0.0 ? options.weld * diagonal_of(draft) : 0.0);
     if (collapse(draft, rim, log)) {
       drop_repeated_faces(draft, log);
@@ -72,12 +77,14 @@ void weld(Draft& draft, const RepairOptions& options, RepairLog& log) {
   }
 }
 
-void mend(Draft& draft, const RepairOptions& options, RepairLog& log) {
+void mend(Draft& draft, const RepairOptions& options, RepairLog& log, const Progress& progress) {
   simplify_faces(draft, log);
   drop_repeated_faces(draft, log);
+  report_progress(progress, 0.25);
   split(draft, log);
-  if (options.weld >= 0.0) weld(draft, options, log);
+  if (options.weld >= 0.0) weld(draft, options, log, progress_within(progress, 0.5, 0.9));
   turn_outwards(draft);
+  report_progress(progress, 0.9);
 }
 
 /// Vertices that a face uses, in order; what became of the input's.
@@ -129,15 +136,16 @@ void number_faces(const Draft& draft, RepairResult& result, RepairLog& log) {
 
 }  // namespace
 
-RepairResult repair(const Mesh& mesh, const RepairOptions& options) {
+RepairResult repair(const Mesh& mesh, const RepairOptions& options, const Progress& progress) {
   if (!(options.weld <= 1.0) || !std::isfinite(options.weld)) {
     throw Error(ErrorCode::BadArgument, "the welding distance must be at most 1, the bounding box's diagonal");
   }
   require_shape(mesh);
   RepairResult result;
   RepairLog log;
+  report_progress(progress, 0.0);
   Draft draft = draft_of(mesh, log);
-  mend(draft, options, log);
+  mend(draft, options, log, progress);
   number_vertices(draft, result, log);
   number_faces(draft, result, log);
   carry_over(draft, result, log);

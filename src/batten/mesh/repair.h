@@ -60,8 +60,8 @@ struct RepairResult {
 
 /// The repaired mesh is accepted by Topology (it may have no face left).
 /// Throws Error(BadShape) where the arrays do not fit each other, Error(TooLarge), Error(BadArgument) for a weld that
-/// is not finite or over 1. O(H log H).
-RepairResult repair(const Mesh& mesh, const RepairOptions& options = {});
+/// is not finite or over 1, Error(Cancelled). O(H log H).
+RepairResult repair(const Mesh& mesh, const RepairOptions& options = {}, const Progress& progress = {});
 
 /// A word for a program: "welded-vertices" and so on.
 std::string repair_word(RepairKind kind);

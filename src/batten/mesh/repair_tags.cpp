@@ -60,8 +60,8 @@ struct Carrier {
         place_crease(keys, f, c, next, met, placed);
       }
     }
-    for (std::size_t i = 0; i < met.size(); ++i) {
-      if (met[i] == 0) log.count_tag();
+    for (const std::uint8_t once : met) {
+      if (once == 0) log.count_tag();
     }
     keep_sharpest(placed);
     for (const Placed& tag : placed) result.mesh.creases.push_back({tag.a, tag.b, tag.sharpness});
