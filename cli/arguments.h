@@ -6,6 +6,7 @@
 
 #include "batten/interpolate/interpolator.h"
 #include "batten/mesh/repair.h"
+#include "batten/render/render.h"
 
 namespace batten::cli {
 
@@ -16,7 +17,6 @@ struct CommonArguments {
   std::string input_format;  ///< for stdin, or to overrule the extension
   std::string output_format;
   std::string report;
-  std::string picture;
   std::optional<SchemeKind> scheme;
   std::optional<BoundaryRule> boundary;
   std::optional<CreaseMethod> crease_method;
@@ -29,8 +29,35 @@ struct CommonArguments {
   int threads = 0;
 };
 
+/// What the surface's colours show.
+enum class Coloring {
+  None,
+  Error,      ///< distance from the limit position of each vertex to its target
+  Moved,      ///< distance from each control point to the limit position of its vertex
+  Mean,       ///< mean curvature of the limit surface
+  Gaussian,   ///< Gaussian curvature of the limit surface
+  Valence,    ///< edges at each vertex; at a boundary twice the faces, so that regular is the same
+  Sharpness,  ///< of creases and corners
+  Zebra       ///< bands that the surface mirrors
+};
+
+/// The same for every verb that draws.
+struct PictureArguments {
+  std::string path;  ///< empty: none
+  int width = 1600;
+  int height = 0;  ///< 0: three quarters of the width, with two panels three eighths
+  int samples = 2;
+  View view = View::Auto;
+  std::optional<std::array<double, 3>> direction;
+  Coloring coloring = Coloring::None;
+  bool transparent = false;
+  bool before_after = false;
+  int turntable = 0;  ///< pictures around; 0: one picture
+};
+
 struct InterpolateArguments {
   CommonArguments common;
+  PictureArguments picture;
   InterpolateOptions options;
   std::string plot;  ///< residual against iteration
   bool compare_methods = false;
@@ -38,17 +65,16 @@ struct InterpolateArguments {
 
 struct SubdivideArguments {
   CommonArguments common;
+  PictureArguments picture;
   int levels = 1;
   bool limit = false;
 };
 
 struct RenderArguments {
   CommonArguments common;
-  int levels = -1;  ///< -1: as many as make the picture smooth
-  int width = 1600;
-  int height = 1200;
-  int samples = 2;
-  std::optional<std::array<double, 3>> view;
+  PictureArguments picture;
+  std::string targets;   ///< mesh whose vertices the surface should pass through, for Coloring::Error
+  int levels = -1;       ///< -1: as many as make the picture smooth
   bool flat = false;     ///< draw the mesh itself, not its subdivision surface
   bool control = false;  ///< draw the control mesh as lines
   bool points = false;   ///< draw the vertices' limit positions as small spheres

@@ -71,23 +71,6 @@ std::string scheme_text(const Scheme& scheme);
 nlohmann::ordered_json scheme_json(const Scheme& scheme);
 Index isolated_count(const Topology& topology);
 
-/// The control values refined `levels` times and moved to the limit, as a mesh; hole faces left out.
-Mesh limit_mesh(const Topology& topology, const Scheme& scheme, ConstValuesRef control, int levels, bool quiet);
-
-/// Levels that make some 400,000 faces, but at most 5.
-int picture_levels(const Topology& topology);
-
-struct PictureRequest {
-  std::string path;
-  int width = 1600;
-  int height = 1200;
-  int samples = 2;
-  std::optional<std::array<double, 3>> view;
-  bool quiet = false;
-};
-/// Draws and writes; throws Error(NotAvailable) in a build without pictures.
-void draw(const Mesh& surface, const Points& markers, const Mesh& lines, const PictureRequest& request);
-
 /// Residual against iteration, with the tolerance, both in the mesh's unit. Throws Error(NotAvailable) as draw does.
 void plot_residuals(const std::string& path, const std::string& title, const SolveReport& report, double tolerance);
 

@@ -3,6 +3,7 @@
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
 #include "cli/common.h"
+#include "cli/picture.h"
 
 namespace batten::cli {
 namespace {
@@ -86,6 +87,22 @@ nlohmann::ordered_json report_json(const InterpolateArguments& arguments, const 
           {"seconds", stages.json()}};
 }
 
+/// The surface with the points that it passes through and its control mesh; colours speak for themselves.
+Subject subject_of(const Mesh& given, const Mesh& control, const Scheme& scheme, const PictureArguments& picture) {
+  Subject subject;
+  subject.control = control;
+  subject.scheme = scheme.after_first_step();
+  subject.targets = given.points;
+  if (picture.coloring == Coloring::None) {
+    subject.markers = given.points;
+    subject.draw_control = true;
+  }
+  subject.before = given;
+  subject.before_caption = "the mesh given";
+  subject.after_caption = "the surface through its points";
+  return subject;
+}
+
 }  // namespace
 
 int run_interpolate(const InterpolateArguments& arguments) {
@@ -103,7 +120,9 @@ int run_interpolate(const InterpolateArguments& arguments) {
   const Scheme scheme = scheme_for(common, mesh);
   stages.finish("topology");
   const double diagonal = bounding_diagonal(mesh.points);
-  const Points targets = common.picture.empty() && !arguments.compare_methods ? Points(0, 3) : mesh.points;
+  const bool drawn = !arguments.picture.path.empty();
+  const Mesh given = drawn ? mesh : Mesh();
+  const Points targets = arguments.compare_methods ? mesh.points : Points(0, 3);
   std::vector<MethodResult> methods;
   Interpolant result;
   {
@@ -118,11 +137,8 @@ int run_interpolate(const InterpolateArguments& arguments) {
   const Mesh control = control_mesh(std::move(mesh), topology, scheme, result, common.quiet);
   write_output(common, control);
   stages.finish("write");
-  if (!common.picture.empty()) {
-    const Topology drawn(control, ProgressBar("connecting", common.quiet).callback());
-    const Scheme after = scheme.after_first_step();
-    draw(limit_mesh(drawn, after, control.points, picture_levels(drawn), common.quiet), targets, control,
-         {common.picture, 1600, 1200, 2, {}, common.quiet});
+  if (drawn) {
+    draw(subject_of(given, control, scheme, arguments.picture), arguments.picture, common.quiet);
     stages.finish("picture");
   }
   if (arguments.compare_methods) {

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <sstream>
 
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
@@ -32,6 +33,13 @@ const Names<SolveMethod> kMethods{{"auto", SolveMethod::Auto},
 const Names<OnSingular> kOnSingular{
     {"refuse", OnSingular::Refuse}, {"least-squares", OnSingular::LeastSquares}, {"alpha", OnSingular::Alpha}};
 const Names<LimitMasks> kMasks{{"exact", LimitMasks::Exact}, {"opensubdiv", LimitMasks::OpenSubdiv}};
+
+const Names<Coloring> kColorings{{"error", Coloring::Error},     {"moved", Coloring::Moved},
+                                 {"mean", Coloring::Mean},       {"gaussian", Coloring::Gaussian},
+                                 {"valence", Coloring::Valence}, {"sharpness", Coloring::Sharpness},
+                                 {"zebra", Coloring::Zebra}};
+const Names<View> kViews{{"front", View::Front}, {"back", View::Back}, {"left", View::Left},    {"right", View::Right},
+                         {"top", View::Top},     {"iso", View::Iso},   {"bottom", View::Bottom}};
 
 /// An option whose words stand for an enumerator; the help lists the words.
 template <typename Enum, typename Target>
@@ -97,8 +105,54 @@ void add_surface(CLI::App& verb, CommonArguments& common) {
   verb.add_flag("--triangulate", common.triangulate, "split all faces into triangles first");
 }
 
-void add_picture(CLI::App& verb, CommonArguments& common) {
-  verb.add_option("--picture", common.picture, "draw the surface through its points")->option_text("FILE.png");
+/// A name, or three numbers with commas.
+std::string read_view(const std::string& words, PictureArguments& picture) {
+  if (const auto named = kViews.find(words); named != kViews.end()) {
+    picture.view = named->second;
+    return "";
+  }
+  std::array<double, 3> direction{};
+  std::istringstream text(words);
+  char first = ' ';
+  char second = ' ';
+  const bool read = static_cast<bool>(text >> direction[0] >> first >> direction[1] >> second >> direction[2]);
+  if (!read || first != ',' || second != ',' || !(text >> std::ws).eof())
+    return "'" + words +
+           "' is neither a view (front, back, left, right, top, bottom, iso) nor a direction like 1,-2,0.5";
+  picture.direction = direction;
+  return "";
+}
+
+void add_picture_options(CLI::App& verb, PictureArguments& picture) {
+  verb.add_option("--width", picture.width, "pixels")->check(CLI::Range(1, 16384))->capture_default_str();
+  verb.add_option("--height", picture.height, "pixels; if not given, a frame of 4:3 or, for two panels, 8:3")
+      ->check(CLI::Range(1, 16384));
+  verb.add_option("--samples", picture.samples, "per pixel and axis")->check(CLI::Range(1, 16))->capture_default_str();
+  verb.add_option_function<std::string>(
+          "--view",
+          [&](const std::string& words) {
+            const std::string wrong = read_view(words, picture);
+            if (!wrong.empty()) throw CLI::ValidationError("--view", wrong);
+          },
+          "from where: a side, or the direction from the object to the eye")
+      ->option_text("front|back|left|right|top|bottom|iso|X,Y,Z");
+  verb.add_flag("--before-after", picture.before_after, "two panels: the mesh given, and what became of it");
+  verb.add_flag("--transparent", picture.transparent, "no background; the shadow is transparent black");
+  verb.add_option("--turntable", picture.turntable, "N pictures around it: NAME-000.png, NAME-001.png, ...")
+      ->check(CLI::Range(1, 10000))
+      ->option_text("N");
+}
+
+void add_coloring(CLI::App& verb, PictureArguments& picture) {
+  add_choice(verb, "--color", picture.coloring, kColorings, "colour the surface by a measure, with a colour bar");
+}
+
+/// Of the verbs whose own output is a mesh.
+void add_picture(CLI::App& verb, PictureArguments& picture) {
+  verb.add_option("--picture", picture.path, "draw the result")
+      ->check(has_extension({".png"}))
+      ->option_text("FILE.png");
+  add_picture_options(verb, picture);
 }
 
 void add_repair(CLI::App& app, RepairArguments& arguments, int& status) {
@@ -132,7 +186,8 @@ void add_interpolate(CLI::App& app, InterpolateArguments& arguments, int& status
   add_input(verb, arguments.common);
   add_output(verb, arguments.common);
   add_surface(verb, arguments.common);
-  add_picture(verb, arguments.common);
+  add_picture(verb, arguments.picture);
+  add_coloring(verb, arguments.picture);
   InterpolateOptions& options = arguments.options;
   add_choice(verb, "--method", options.method, kMethods, "how to solve; jacobi is Thall's, richardson Lai and Cheng's");
   verb.add_option("--tolerance", options.tolerance, "largest miss, of the bounding box's diagonal")
@@ -160,6 +215,7 @@ void add_subdivide(CLI::App& app, SubdivideArguments& arguments, int& status) {
   add_surface(verb, arguments.common);
   verb.add_option("--levels", arguments.levels, "how often")->check(CLI::Range(0, 12))->capture_default_str();
   verb.add_flag("--limit", arguments.limit, "then move the vertices to the limit surface, with its normals");
+  add_picture(verb, arguments.picture);
   verb.callback([&] { status = run_subdivide(arguments); });
 }
 
@@ -170,15 +226,10 @@ void add_render(CLI::App& app, RenderArguments& arguments, int& status) {
   add_surface(verb, arguments.common);
   verb.add_option("--levels", arguments.levels, "refinement; as many as make it smooth, if not given")
       ->check(CLI::Range(0, 12));
-  verb.add_option("--width", arguments.width, "pixels")->check(CLI::Range(1, 16384))->capture_default_str();
-  verb.add_option("--height", arguments.height, "pixels")->check(CLI::Range(1, 16384))->capture_default_str();
-  verb.add_option("--samples", arguments.samples, "per pixel and axis")
-      ->check(CLI::Range(1, 16))
-      ->capture_default_str();
-  verb.add_option_function<std::array<double, 3>>(
-          "--view", [&](const std::array<double, 3>& view) { arguments.view = view; },
-          "direction from the object to the eye")
-      ->option_text("X Y Z");
+  add_picture_options(verb, arguments.picture);
+  add_coloring(verb, arguments.picture);
+  verb.add_option("--targets", arguments.targets, "for --color error: the mesh whose vertices it should pass through")
+      ->option_text("FILE");
   verb.add_flag("--flat", arguments.flat, "draw the mesh as it is");
   verb.add_flag("--control", arguments.control, "with the control mesh as lines");
   verb.add_flag("--points", arguments.points, "with the vertices' limit positions");

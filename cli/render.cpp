@@ -1,6 +1,8 @@
+#include "batten/io/io.h"
 #include "batten/limit/limit_matrix.h"
 #include "batten/parallel/parallel.h"
 #include "cli/common.h"
+#include "cli/picture.h"
 
 namespace batten::cli {
 
@@ -11,22 +13,28 @@ int run_render(const RenderArguments& arguments) {
   nlohmann::ordered_json repairs;
   const Mesh mesh = read_input(common, &repairs);
   stages.finish("read");
-  Mesh surface = mesh;
-  Points markers(0, 3);
+  Subject subject;
+  subject.control = mesh;
+  subject.before = arguments.picture.before_after ? mesh : Mesh();
+  subject.before_caption = "the mesh as it is";
+  subject.after_caption = "its surface";
+  subject.flat = arguments.flat || mesh.face_count() == 0;
+  subject.draw_control = arguments.control;
+  if (!arguments.targets.empty()) subject.targets = read_mesh(arguments.targets).points;
   std::string shown = "as it is";
-  if (!arguments.flat && mesh.face_count() > 0) {
+  if (!subject.flat) {
     const Topology topology(mesh, ProgressBar("connecting", common.quiet).callback());
-    const Scheme scheme = scheme_for(common, mesh);
-    const int levels = arguments.levels >= 0 ? arguments.levels : picture_levels(topology);
-    surface = limit_mesh(topology, scheme, mesh.points, levels, common.quiet);
-    if (arguments.points) markers = LimitMatrix(topology, scheme).apply(mesh.points);
-    shown = scheme_text(scheme) + ", " + count_of(levels, "level", "levels") + ", on the limit surface";
+    subject.scheme = scheme_for(common, mesh);
+    subject.levels = arguments.levels >= 0 ? arguments.levels : picture_levels(topology);
+    if (arguments.points) subject.markers = LimitMatrix(topology, subject.scheme).apply(mesh.points);
+    shown = scheme_text(subject.scheme) + ", " + count_of(subject.levels, "level", "levels") + ", on the limit surface";
   } else if (arguments.points) {
-    markers = mesh.points;
+    subject.markers = mesh.points;
   }
-  stages.finish("refine");
-  draw(surface, markers, arguments.control ? mesh : Mesh(),
-       {common.output, arguments.width, arguments.height, arguments.samples, arguments.view, common.quiet});
+  stages.finish("prepare");
+  PictureArguments picture = arguments.picture;
+  picture.path = common.output;
+  draw(subject, picture, common.quiet);
   stages.finish("picture");
   Table table;
   table.add("mesh",

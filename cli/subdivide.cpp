@@ -3,6 +3,7 @@
 #include "batten/limit/limit_matrix.h"
 #include "batten/parallel/parallel.h"
 #include "cli/common.h"
+#include "cli/picture.h"
 
 namespace batten::cli {
 
@@ -38,6 +39,16 @@ int run_subdivide(const SubdivideArguments& arguments) {
   stages.finish("subdivide");
   write_output(common, refined);
   stages.finish("write");
+  if (!arguments.picture.path.empty()) {
+    Subject subject;
+    subject.control = refined;
+    subject.flat = true;
+    subject.before = mesh;
+    subject.before_caption = "the mesh given";
+    subject.after_caption = "refined " + (arguments.levels == 1 ? "once" : std::to_string(arguments.levels) + " times");
+    draw(subject, arguments.picture, common.quiet);
+    stages.finish("picture");
+  }
   Table table;
   table.add("mesh", mesh_text(topology));
   table.add("scheme", scheme_text(scheme));

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -175,6 +176,66 @@ TEST_F(Tool, ComparesTheMethods) {
   }
   EXPECT_LT(3 * methods[0]["iterations"].get<int>(), methods[1]["iterations"].get<int>());
   EXPECT_LT(methods[1]["iterations"].get<int>(), methods[2]["iterations"].get<int>());
+}
+
+/// Width, height and channels of a PNG; zeros for another file.
+std::array<int, 3> png_shape(const std::string& path) {
+  const std::string bytes = text_of(path);
+  if (bytes.size() < 26 || bytes.compare(1, 3, "PNG") != 0) return {0, 0, 0};
+  const auto number = [&](std::size_t at) {
+    int value = 0;
+    for (std::size_t i = 0; i < 4; ++i) value = value * 256 + static_cast<unsigned char>(bytes[at + i]);
+    return value;
+  };
+  return {number(16), number(20), bytes[25] == 6 ? 4 : 3};
+}
+
+TEST_F(Tool, PicturesHaveTheSizeThatWasAskedFor) {
+  using Shape = std::array<int, 3>;
+  const std::string small = " --width 161 --samples 1";
+  const std::string control = kModels + "tripod.obj";
+  ASSERT_EQ(run("render " + control + " -o a.png --view left --transparent" + small).status, 0);
+  EXPECT_EQ(png_shape(path("a.png")), (Shape{161, 120, 4}));
+  ASSERT_EQ(run("interpolate " + control + " --picture new/b.png --before-after --color mean" + small).status, 0);
+  EXPECT_EQ(png_shape(path("new/b.png")), (Shape{161, 60, 3}));
+  ASSERT_EQ(run("subdivide " + control + " --picture c.png --before-after --view 1,-2,0.5" + small).status, 0);
+  EXPECT_EQ(png_shape(path("c.png")), (Shape{161, 60, 3}));
+  ASSERT_EQ(run("render " + control + " -o d.png --turntable 3 --height 100" + small).status, 0);
+  for (const char* name : {"d-000.png", "d-001.png", "d-002.png"})
+    EXPECT_EQ(png_shape(path(name)), (Shape{161, 100, 3})) << name;
+  EXPECT_FALSE(fs::exists(path("d.png")));
+  EXPECT_NE(text_of(path("d-000.png")), text_of(path("d-001.png")));
+}
+
+TEST_F(Tool, EveryColourDraws) {
+  for (const char* color : {"moved", "mean", "gaussian", "valence", "sharpness", "zebra"}) {
+    const Outcome result = run("render " + kModels + "bracket.obj -o " + color +
+                               ".png --levels 2 --width 200 --samples 1 --color " + color);
+    EXPECT_EQ(result.status, 0) << color << result.err;
+    EXPECT_EQ(png_shape(path(std::string(color) + ".png"))[0], 200);
+  }
+  const std::string flat = "render " + kModels + "bracket.obj -o f.png --flat --width 200 --samples 1 --color ";
+  EXPECT_EQ(run(flat + "valence").status, 0);
+  const Outcome curved = run(flat + "mean");
+  EXPECT_EQ(curved.status, 1);
+  EXPECT_NE(curved.err.find("--flat"), std::string::npos) << curved.err;
+}
+
+TEST_F(Tool, ErrorNeedsTargets) {
+  const std::string picture = "render " + kModels + "tripod.obj -o e.png --width 200 --samples 1 --color error";
+  const Outcome without = run(picture);
+  EXPECT_EQ(without.status, 1);
+  EXPECT_NE(without.err.find("--targets"), std::string::npos) << without.err;
+  EXPECT_EQ(run(picture + " --targets " + kModels + "tripod.obj").status, 0);
+  const Outcome other = run(picture + " --targets " + kModels + "creature.obj");
+  EXPECT_EQ(other.status, 1);
+  EXPECT_NE(other.err.find("more targets"), std::string::npos) << other.err;
+}
+
+TEST_F(Tool, RefusesViewsThatAreNone) {
+  for (const char* view : {"upwards", "1,2", "1,2,3,4", "a,b,c", "0,0,0"})
+    EXPECT_NE(run("render " + kModels + "cube.obj -o v.png --view " + view).status, 0) << view;
+  EXPECT_FALSE(fs::exists(path("v.png")));
 }
 
 TEST_F(Tool, SaysWhenTheToleranceWasNotReached) {

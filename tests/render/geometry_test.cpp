@@ -11,7 +11,7 @@ namespace {
 Triangles triangles_of_mesh(const Mesh& mesh) {
   Scene scene;
   scene.surface = mesh;
-  return triangles_of(scene, frame_of(scene));
+  return triangles_of(scene, frame_of({&scene}));
 }
 
 Vec facet_normal(const Triangles& triangles, std::size_t t) {
@@ -79,12 +79,60 @@ TEST(RenderGeometry, UpIsWhereTheShapeStands) {
   for (Index i = 0; i < 4; ++i) pyramid.add_face({i, 4, (i + 1) % 4});
   Scene scene;
   scene.surface = pyramid;
-  EXPECT_EQ(resolve_up(scene, frame_of(scene), UpAxis::Auto), UpAxis::Y);
-  EXPECT_EQ(resolve_up(scene, frame_of(scene), UpAxis::Z), UpAxis::Z);
+  EXPECT_EQ(resolve_up({&scene}, frame_of({&scene}), UpAxis::Auto), UpAxis::Y);
+  EXPECT_EQ(resolve_up({&scene}, frame_of({&scene}), UpAxis::Z), UpAxis::Z);
   scene.surface.points.col(1).swap(scene.surface.points.col(2));
-  EXPECT_EQ(resolve_up(scene, frame_of(scene), UpAxis::Auto), UpAxis::Z);
+  EXPECT_EQ(resolve_up({&scene}, frame_of({&scene}), UpAxis::Auto), UpAxis::Z);
   scene.surface = cube();
-  EXPECT_EQ(resolve_up(scene, frame_of(scene), UpAxis::Auto), UpAxis::Z);
+  EXPECT_EQ(resolve_up({&scene}, frame_of({&scene}), UpAxis::Auto), UpAxis::Z);
+}
+
+TEST(RenderGeometry, NamedViewsStandOnTheirSide) {
+  Scene scene;
+  scene.surface = cube();
+  RenderOptions options;
+  options.up = UpAxis::Z;
+  const auto towards = [&](View view) {
+    options.view = view;
+    return fit_viewpoint({&scene}, options).direction;
+  };
+  EXPECT_EQ(towards(View::Front), (std::array<double, 3>{0.0, -1.0, 0.0}));
+  EXPECT_EQ(towards(View::Right), (std::array<double, 3>{1.0, 0.0, 0.0}));
+  EXPECT_EQ(towards(View::Top), (std::array<double, 3>{0.0, 0.0, 1.0}));
+  options.up = UpAxis::Y;
+  EXPECT_EQ(towards(View::Front), (std::array<double, 3>{0.0, 0.0, 1.0}));
+  EXPECT_EQ(towards(View::Top), (std::array<double, 3>{0.0, 1.0, 0.0}));
+  EXPECT_EQ(towards(View::Left), (std::array<double, 3>{-1.0, 0.0, 0.0}));
+}
+
+TEST(RenderGeometry, TurntableKeepsItsDistanceAndShowsEverything) {
+  Scene scene;
+  scene.surface = torus(40, 20, 3.0, 0.5);
+  scene.surface.points.col(0) *= 4.0;
+  scene.surface.points.rowwise() += Eigen::RowVector3d(100, 200, 300);
+  RenderOptions options;
+  options.up = UpAxis::Z;
+  const std::vector<Viewpoint> around = turntable({&scene}, options, 12);
+  ASSERT_EQ(around.size(), 12U);
+  const Frame frame = frame_of({&scene});
+  float widest = 0.0F;
+  for (const Viewpoint& viewpoint : around) {
+    EXPECT_EQ(viewpoint.distance, around[0].distance);
+    EXPECT_EQ(viewpoint.target, around[0].target);
+    EXPECT_NEAR(viewpoint.direction[2], around[0].direction[2], 1e-12);
+    options.viewpoint = viewpoint;
+    const Camera camera = camera_of(scene, frame, options);
+    for (Index v = 0; v < scene.surface.vertex_count(); ++v) {
+      const Vec at = frame.apply(scene.surface.points.row(v)) - camera.eye;
+      const float depth = at.dot(camera.forward);
+      widest = std::max({widest, std::abs(at.dot(camera.right)) / depth / camera.tangent_x,
+                         std::abs(at.dot(camera.up)) / depth / camera.tangent_y});
+    }
+  }
+  EXPECT_NEAR(widest, 0.85F, 1e-4F);
+  options.view = View::Top;
+  EXPECT_EQ(test::code_of([&] { turntable({&scene}, options, 4); }), ErrorCode::BadArgument);
+  EXPECT_EQ(test::code_of([&] { turntable({&scene}, RenderOptions(), 0); }), ErrorCode::BadArgument);
 }
 
 TEST(RenderGeometry, EveryPointFitsTheFrame) {
@@ -92,11 +140,11 @@ TEST(RenderGeometry, EveryPointFitsTheFrame) {
   scene.surface = torus(40, 20, 3.0, 0.5);
   scene.surface.points.col(0) *= 7.0;
   scene.surface.points.rowwise() += Eigen::RowVector3d(100, 200, 300);
-  const Frame frame = frame_of(scene);
+  const Frame frame = frame_of({&scene});
   RenderOptions options;
   for (const std::array<double, 3>& view :
        {std::array<double, 3>{1, 2, 3}, {0, 0, 1}, {0, 0, -1}, {-1, 0, 0}, {3, -1, -2}}) {
-    options.view = view;
+    options.direction = view;
     const Camera camera = camera_of(scene, frame, options);
     float widest = 0.0F;
     for (Index v = 0; v < scene.surface.vertex_count(); ++v) {

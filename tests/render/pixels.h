@@ -17,7 +17,8 @@ using Pixel = std::array<int, 3>;
 
 inline Pixel pixel(const Picture& picture, int x, int y) {
   const std::size_t at =
-      3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x));
+      static_cast<std::size_t>(picture.channels) *
+      (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x));
   return {picture.pixels[at], picture.pixels[at + 1], picture.pixels[at + 2]};
 }
 
@@ -68,7 +69,7 @@ inline RenderOptions small_front_view() {
   options.width = 240;
   options.height = 180;
   options.up = UpAxis::Z;
-  options.view = {0.0, -1.0, 0.0};
+  options.direction = {0.0, -1.0, 0.0};
   return options;
 }
 

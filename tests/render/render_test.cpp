@@ -77,13 +77,111 @@ TEST(Render, GivenColorsAreDrawn) {
   EXPECT_GT(centre[2], centre[0] + 60);
 }
 
+TEST(Render, ScalarsAreDrawnInTheColoursOfTheirScale) {
+  Scene scene = sphere_scene();
+  scene.scalars = scene.surface.points.col(0);
+  scene.scale = fit_color_scale(scene.scalars, {"x", "", ColorMap::Diverging});
+  const Picture picture = picture_without_ground(scene);
+  const Pixel left = pixel(picture, 60, 90);
+  const Pixel right = pixel(picture, 180, 90);
+  EXPECT_GT(left[2], left[0] + 60);
+  EXPECT_GT(right[0], right[2] + 40);
+  const Pixel middle = pixel(picture, 120, 90);
+  EXPECT_NEAR(middle[0], middle[2], 14);
+  scene.scalars.setConstant(std::numeric_limits<double>::quiet_NaN());
+  const Pixel missing = pixel(picture_without_ground(scene), 60, 90);
+  EXPECT_NEAR(missing[0], missing[2], 20);
+  scene.scalars.resize(3);
+  EXPECT_EQ(code_of([&] { render(scene); }), ErrorCode::BadShape);
+}
+
+/// Changes between light and dark along the middle row.
+int bands(const Picture& picture) {
+  int changes = 0;
+  int before = -1;
+  for (int x = 0; x < picture.width; ++x) {
+    const int light = brightness(pixel(picture, x, picture.height / 2));
+    if (light > 250 && light < 450) continue;  // an edge between bands
+    const int side = light >= 450 ? 1 : 0;
+    changes += before >= 0 && side != before ? 1 : 0;
+    before = side;
+  }
+  return changes;
+}
+
+TEST(Render, ZebraHasBandsOnASphereAndNoneOnAPlane) {
+  Scene scene = sphere_scene();
+  RenderOptions options = small_front_view();
+  options.ground = Ground::None;
+  EXPECT_LE(bands(render(scene, options)), 4);
+  options.shading = Shading::Zebra;
+  EXPECT_GE(bands(render(scene, options)), 12);
+  scene.surface = grid(4, 4);
+  options.direction = {0.0, 0.0, 1.0};
+  EXPECT_LE(bands(render(scene, options)), 6);
+}
+
+TEST(Render, ZebraBreaksWhereCornerNormalsDo) {
+  // A sphere whose right half has its normals bent: the bands jump at the seam, and only there.
+  Scene scene = sphere_scene();
+  RenderOptions options = small_front_view();
+  options.shading = Shading::Zebra;
+  const Picture smooth = render(scene, options);
+  Values normals(static_cast<Eigen::Index>(scene.surface.face_vertices.size()), 3);
+  for (std::size_t c = 0; c < scene.surface.face_vertices.size(); ++c)
+    normals.row(static_cast<Eigen::Index>(c)) = scene.surface.points.row(scene.surface.face_vertices[c]);
+  scene.normals = normals;
+  const Picture same = render(scene, options);
+  for (Index f = 0; f < scene.surface.face_count(); ++f) {
+    double across = 0.0;
+    for (Index c = scene.surface.face_offsets[f]; c < scene.surface.face_offsets[f + 1]; ++c)
+      across += scene.surface.points(scene.surface.face_vertices[c], 0);
+    if (across <= 0.0) continue;
+    for (Index c = scene.surface.face_offsets[f]; c < scene.surface.face_offsets[f + 1]; ++c)
+      scene.normals.row(c) += Eigen::RowVector3d(0.4, 0.0, 0.0);
+  }
+  const Picture bent = render(scene, options);
+  const auto changed = [&](const Picture& picture, int from, int to) {
+    int count = 0;
+    for (int y = 40; y < 140; ++y) {
+      for (int x = from; x < to; ++x)
+        count += std::abs(brightness(pixel(picture, x, y)) - brightness(pixel(smooth, x, y))) > 90 ? 1 : 0;
+    }
+    return count;
+  };
+  EXPECT_LT(changed(same, 60, 180), 60);
+  EXPECT_LT(changed(bent, 60, 117), 60);
+  EXPECT_GT(changed(bent, 123, 180), 1000);
+}
+
+TEST(Render, TransparentOverItsBackgroundIsTheOpaquePicture) {
+  RenderOptions options = small_front_view();
+  options.direction = {0.3, -1.0, 0.6};
+  const Picture opaque = render(sphere_scene(), options);
+  options.style.transparent = true;
+  const Picture clear = render(sphere_scene(), options);
+  ASSERT_EQ(clear.channels, 4);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < clear.pixels.size() / 4; ++i) {
+    const double alpha = clear.pixels[4 * i + 3] / 255.0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double over = alpha * clear.pixels[4 * i + c] + (1.0 - alpha) * kBackground[c];
+      sum += std::abs(over - opaque.pixels[3 * i + c]);
+    }
+  }
+  // The shadow is a little bluer than black, and edges are blended in sRGB instead of in light.
+  EXPECT_LT(sum / static_cast<double>(opaque.pixels.size()), 0.6);
+  EXPECT_EQ(clear.pixels[3], 0);                           // a corner
+  EXPECT_EQ(clear.pixels[4 * (90 * 240 + 120) + 3], 255);  // the middle
+}
+
 TEST(Render, BackSidesAreCooler) {
   Scene scene;
   scene.surface = grid(4, 4);
   RenderOptions options = small_front_view();
-  options.view = {0.0, -0.1, 1.0};
+  options.direction = {0.0, -0.1, 1.0};
   const Pixel front = pixel(render(scene, options), 120, 90);
-  options.view = {0.0, -0.1, -1.0};
+  options.direction = {0.0, -0.1, -1.0};
   const Pixel back = pixel(render(scene, options), 120, 90);
   EXPECT_GT(front[0], front[2]);
   EXPECT_LT(back[0], back[2]);
@@ -103,7 +201,7 @@ TEST(Render, EdgesOfThePictureAreBackground) {
 
 TEST(Render, ShadowFallsOnTheGroundAwayFromTheKeyLight) {
   RenderOptions options = small_front_view();
-  options.view = {0.0, -1.0, 0.6};
+  options.direction = {0.0, -1.0, 0.6};
   const Picture shadow = render(sphere_scene(), options);
   options.ground = Ground::None;
   const Picture none = render(sphere_scene(), options);
@@ -119,7 +217,7 @@ TEST(Render, OneBodyShadesAnother) {
   Scene scene;
   scene.surface = grid(8, 8);
   RenderOptions options = small_front_view();
-  options.view = {0.0, -0.3, 1.0};
+  options.direction = {0.0, -0.3, 1.0};
   const int open = brightness(pixel(render(scene, options), 120, 90));
   // A plate over a quarter of the sheet, between its middle and the light, but out of the eye's way.
   Mesh plate = grid(1, 1);
@@ -226,7 +324,7 @@ TEST(Render, RefusesWhatItCannotDraw) {
   options.width = 0;
   EXPECT_EQ(code_of([&] { render(sphere_scene(), options); }), ErrorCode::BadArgument);
   options = {};
-  options.view = {0.0, 0.0, 0.0};
+  options.direction = {0.0, 0.0, 0.0};
   EXPECT_EQ(code_of([&] { render(sphere_scene(), options); }), ErrorCode::BadArgument);
   options = {};
   options.marker_radius = -1.0;

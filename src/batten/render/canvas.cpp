@@ -3,9 +3,12 @@
 #include <cairo-svg.h>
 #include <cairo.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "batten/error.h"
+#include "batten/render/srgb.h"
 
 namespace batten::render_detail {
 namespace {
@@ -29,6 +32,18 @@ struct DestroyContext {
 
 }  // namespace
 
+Ink ink_of(const Color& color) {
+  // The very byte that a picture has of this colour.
+  const auto byte = [](float linear) { return static_cast<double>(std::lround(255.0F * encode_srgb(linear))) / 255.0; };
+  return {byte(color[0]), byte(color[1]), byte(color[2])};
+}
+
+Ink text_ink(const PictureStyle& style) {
+  const Color& back = style.background;
+  const float luminance = 0.2126F * back[0] + 0.7152F * back[1] + 0.0722F * back[2];
+  return luminance > 0.18F ? ink(0x2B2F36) : ink(0xEDEEF0);
+}
+
 struct Canvas::Parts {
   int width;
   int height;
@@ -37,8 +52,9 @@ struct Canvas::Parts {
   std::unique_ptr<cairo_t, DestroyContext> context;
 
   Parts(int width_in, int height_in, Kind kind) : width(width_in), height(height_in) {
+    const cairo_format_t format = kind == Kind::Clear ? CAIRO_FORMAT_ARGB32 : CAIRO_FORMAT_RGB24;
     surface.reset(kind == Kind::Svg ? cairo_svg_surface_create_for_stream(append_bytes, &file, width, height)
-                                    : cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height));
+                                    : cairo_image_surface_create(format, width, height));
     context.reset(cairo_create(surface.get()));
     check();
     cairo_font_options_t* options = cairo_font_options_create();
@@ -124,21 +140,50 @@ double Canvas::text_width(const std::string& words, const TextStyle& style) cons
   return extents.x_advance;
 }
 
+void Canvas::paste(const Picture& picture, int left, int top) {
+  const bool clear = picture.channels == 4;
+  const std::unique_ptr<cairo_surface_t, DestroySurface> image(
+      cairo_image_surface_create(clear ? CAIRO_FORMAT_ARGB32 : CAIRO_FORMAT_RGB24, picture.width, picture.height));
+  unsigned char* data = cairo_image_surface_get_data(image.get());
+  if (data == nullptr) throw Error(ErrorCode::BadArgument, "the picture is too large to be put beside another");
+  const int stride = cairo_image_surface_get_stride(image.get());
+  const unsigned char* in = picture.pixels.data();
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x, in += picture.channels) {
+      const std::uint32_t alpha = clear ? in[3] : 255U;
+      std::uint32_t pixel = alpha << 24;
+      for (int c = 0; c < 3; ++c) pixel |= (in[c] * alpha + 127U) / 255U << (16 - 8 * c);
+      std::memcpy(data + static_cast<std::ptrdiff_t>(y) * stride + std::ptrdiff_t{4} * x, &pixel, sizeof pixel);
+    }
+  }
+  cairo_surface_mark_dirty(image.get());
+  cairo_set_source_surface(parts_->context.get(), image.get(), left, top);
+  cairo_paint(parts_->context.get());
+}
+
 Picture Canvas::picture() const {
   parts_->check();
   cairo_surface_flush(parts_->surface.get());
   const unsigned char* data = cairo_image_surface_get_data(parts_->surface.get());
   const int stride = cairo_image_surface_get_stride(parts_->surface.get());
+  const bool clear = cairo_image_surface_get_format(parts_->surface.get()) == CAIRO_FORMAT_ARGB32;
   Picture picture;
   picture.width = parts_->width;
   picture.height = parts_->height;
-  picture.pixels.reserve(std::size_t{3} * static_cast<std::size_t>(picture.width) *
+  picture.channels = clear ? 4 : 3;
+  picture.pixels.reserve(static_cast<std::size_t>(picture.channels) * static_cast<std::size_t>(picture.width) *
                          static_cast<std::size_t>(picture.height));
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < picture.width; ++x) {
       std::uint32_t pixel = 0;
       std::memcpy(&pixel, data + static_cast<std::ptrdiff_t>(y) * stride + std::ptrdiff_t{4} * x, sizeof pixel);
-      for (const int shift : {16, 8, 0}) picture.pixels.push_back(static_cast<unsigned char>(pixel >> shift & 255U));
+      const std::uint32_t alpha = clear ? pixel >> 24 : 255U;
+      for (const int shift : {16, 8, 0}) {
+        const std::uint32_t part = pixel >> shift & 255U;
+        picture.pixels.push_back(
+            static_cast<unsigned char>(alpha > 0 ? std::min(255U, (part * 255U + alpha / 2) / alpha) : 0U));
+      }
+      if (clear) picture.pixels.push_back(static_cast<unsigned char>(alpha));
     }
   }
   return picture;

@@ -23,6 +23,11 @@ constexpr Ink ink(unsigned hex, double alpha = 1.0) {
   return {(hex >> 16 & 255U) / 255.0, (hex >> 8 & 255U) / 255.0, (hex & 255U) / 255.0, alpha};
 }
 
+Ink ink_of(const Color& color);
+
+/// Dark on a light background, light on a dark one.
+Ink text_ink(const PictureStyle& style);
+
 enum class Align { Left, Centre, Right };
 
 struct TextStyle {
@@ -41,7 +46,11 @@ struct Stroke {
 /// UTF-8 in DejaVu Sans, or what the system has instead; unhinted, so that text scales as lines do.
 class Canvas {
  public:
-  enum class Kind { Picture, Svg };
+  enum class Kind {
+    Picture,
+    Clear,  ///< a picture with alpha, which starts transparent
+    Svg
+  };
   Canvas(int width, int height, Kind kind);
   ~Canvas();
   Canvas(Canvas&&) noexcept;
@@ -53,9 +62,11 @@ class Canvas {
   void disc(const Spot& centre, double radius, const Ink& ink);
   /// `at` is on the baseline.
   void text(const Spot& at, const std::string& words, const TextStyle& style);
+  /// Its top left pixel goes to (left, top).
+  void paste(const Picture& picture, int left, int top);
   double text_width(const std::string& words, const TextStyle& style) const;
 
-  /// What was drawn; of Kind::Picture.
+  /// What was drawn; not of Kind::Svg.
   Picture picture() const;
   /// The file's bytes; of Kind::Svg. Nothing can be drawn afterwards.
   Buffer<unsigned char> svg();

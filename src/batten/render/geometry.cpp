@@ -41,7 +41,7 @@ void check_finite(ConstValuesRef values, const char* what) {
   }
 }
 
-void check_rows(const Values& values, Index rows, const char* what) {
+void check_rows(const Values& values, Eigen::Index rows, const char* what) {
   if (values.size() == 0) return;
   if (values.rows() != rows || values.cols() != 3)
     throw Error(ErrorCode::BadShape, std::string("the ") + what +
@@ -134,13 +134,21 @@ void check_scene(const Scene& scene) {
   check_finite(scene.surface.points, "surface's points");
   check_finite(scene.lines.points, "lines' points");
   check_finite(scene.markers, "markers");
-  check_rows(scene.normals, scene.surface.vertex_count(), "normals");
+  const auto corners = static_cast<Eigen::Index>(scene.surface.face_vertices.size());
+  check_rows(scene.normals, scene.normals.rows() == corners ? corners : scene.surface.vertex_count(), "normals");
   check_rows(scene.colors, scene.surface.vertex_count(), "colors");
+  if (scene.scalars.size() > 0 && scene.scalars.size() != scene.surface.vertex_count())
+    throw Error(ErrorCode::BadShape, "the scalars must be empty or one number a vertex of the surface (" +
+                                         std::to_string(scene.surface.vertex_count()) + "), not " +
+                                         std::to_string(scene.scalars.size()));
 }
 
-Frame frame_of(const Scene& scene) {
-  Box box = Box::join(box_of_faces(scene.surface), box_of_faces(scene.lines));
-  for (Eigen::Index i = 0; i < scene.markers.rows(); ++i) box.include(scene.markers.row(i));
+Frame frame_of(const std::vector<const Scene*>& scenes) {
+  Box box;
+  for (const Scene* scene : scenes) {
+    box = Box::join(box, Box::join(box_of_faces(scene->surface), box_of_faces(scene->lines)));
+    for (Eigen::Index i = 0; i < scene->markers.rows(); ++i) box.include(scene->markers.row(i));
+  }
   Frame frame;
   frame.lowest = box.lowest.matrix().transpose();
   frame.highest = box.highest.matrix().transpose();
@@ -168,9 +176,11 @@ Triangles triangles_of(const Scene& scene, const Frame& frame) {
       triangles.vertices[c] = static_cast<std::uint32_t>(mesh.face_vertices[corners[c]]);
   });
   if (scene.normals.size() > 0) {
-    triangles.normals.resize(static_cast<std::size_t>(mesh.vertex_count()));
-    for (Index v = 0; v < mesh.vertex_count(); ++v)
-      triangles.normals[v] = scene.normals.row(v).transpose().stableNormalized().cast<float>();
+    if (scene.normals.rows() != mesh.vertex_count()) triangles.normal_rows = corners;
+    triangles.normals.resize(static_cast<std::size_t>(scene.normals.rows()));
+    for (Eigen::Index i = 0; i < scene.normals.rows(); ++i)
+      triangles.normals[static_cast<std::size_t>(i)] =
+          scene.normals.row(i).transpose().stableNormalized().cast<float>();
   } else {
     compute_normals(mesh, corners, triangles);
   }
@@ -178,6 +188,7 @@ Triangles triangles_of(const Scene& scene, const Frame& frame) {
     triangles.colors.resize(static_cast<std::size_t>(mesh.vertex_count()));
     for (Index v = 0; v < mesh.vertex_count(); ++v) triangles.colors[v] = scene.colors.row(v).transpose().cast<float>();
   }
+  for (const double value : scene.scalars) triangles.levels.push_back(static_cast<float>(scene.scale.position(value)));
   return triangles;
 }
 

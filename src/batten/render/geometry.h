@@ -24,6 +24,7 @@ struct Triangles {
   Buffer<std::uint32_t> normal_rows;  ///< 3T: rows of `normals`; empty: the same as `vertices`
   Buffer<Vec> normals;                ///< unit length or zero; V, then one a corner of the mesh where it is split
   Buffer<Vec> colors;                 ///< V or empty
+  Buffer<float> levels;               ///< V positions on the colour scale, or empty
 
   std::size_t count() const { return vertices.size() / 3; }
   std::uint32_t normal_row(std::size_t corner) const {
@@ -34,8 +35,8 @@ struct Triangles {
 /// Throws Error(BadShape, IndexOutOfRange, NotFinite, BadArgument) for a scene that cannot be drawn.
 void check_scene(const Scene& scene);
 
-/// Of the surface's faces, the markers and the lines.
-Frame frame_of(const Scene& scene);
+/// Of the surfaces' faces, the markers and the lines of all scenes.
+Frame frame_of(const std::vector<const Scene*>& scenes);
 
 Triangles triangles_of(const Scene& scene, const Frame& frame);
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "batten/parallel/parallel.h"
+#include "batten/render/srgb.h"
 
 namespace batten::render_detail {
 namespace {
@@ -27,17 +28,13 @@ float tone(float x) {
   return x < kKnee ? x : kKnee + (1.0F - kKnee) * (1.0F - std::exp((kKnee - x) / (1.0F - kKnee)));
 }
 
-float srgb(float linear) {
-  return linear <= 0.0031308F ? 12.92F * linear : 1.055F * std::pow(linear, 1.0F / 2.4F) - 0.055F;
-}
-
 /// sRGB bytes of linear values in [0, 1], by a table fine enough for the steep foot of the curve.
 class ByteTable {
  public:
   ByteTable() : bytes_(kSteps + 1) {
     for (int i = 0; i <= kSteps; ++i)
       bytes_[static_cast<std::size_t>(i)] =
-          static_cast<unsigned char>(std::lround(255.0F * srgb(static_cast<float>(i) / kSteps)));
+          static_cast<unsigned char>(std::lround(255.0F * encode_srgb(static_cast<float>(i) / kSteps)));
   }
   unsigned char operator()(float linear) const {
     return bytes_[static_cast<std::size_t>(std::lround(std::clamp(linear, 0.0F, 1.0F) * kSteps))];
@@ -47,6 +44,21 @@ class ByteTable {
   static constexpr int kSteps = 1 << 15;
   std::vector<unsigned char> bytes_;
 };
+
+/// How opaque black must be for what `left` leaves of the background beside the shape.
+float shadow_opacity(float background, float coverage, float left) {
+  if (coverage >= 1.0F || background <= 0.0F) return 0.0F;
+  const float kept = std::clamp(left / (1.0F - coverage), 0.0F, 1.0F);
+  return (1.0F - coverage) * (1.0F - encode_srgb(background * kept) / encode_srgb(background));
+}
+
+/// The shape's colour over a black shadow, as one colour with alpha.
+void set_alpha(unsigned char* pixel, float coverage, float shadow) {
+  const float alpha = std::min(1.0F, coverage + shadow);
+  const float share = alpha > 0.0F ? coverage / alpha : 0.0F;
+  for (int c = 0; c < 3; ++c) pixel[c] = static_cast<unsigned char>(std::lround(share * static_cast<float>(pixel[c])));
+  pixel[3] = static_cast<unsigned char>(std::lround(255.0F * alpha));
+}
 
 }  // namespace
 
@@ -58,6 +70,7 @@ Lamps::Lamps(const Camera& camera) : up(camera.world_up) {
   towards.normalize();
   key = (0.50F * left + 0.62F * towards + 1.05F * up).normalized();
   fill = (0.85F * camera.right + 0.45F * towards + 0.15F * up).normalized();
+  zebra_axis = (0.88F * camera.right + 0.42F * camera.up + 0.22F * camera.forward).normalized();
   key_side = key.unitOrthogonal();
   key_rise = key.cross(key_side);
 }
@@ -82,7 +95,7 @@ Light reflect(const Lamps& lamps, const Surfel& surfel, const Vec& direction) {
   const float along = std::max(0.0F, half.dot(normal));
   const float power4 = along * along * along * along;
   const float power16 = power4 * power4 * power4 * power4;
-  const float gloss = kGloss * power16 * power16 * std::min(1.0F, 8.0F * cosine);
+  const float gloss = surfel.gloss * kGloss * power16 * power16 * std::min(1.0F, 8.0F * cosine);
   const float facing = std::clamp(1.0F + direction.dot(normal), 0.0F, 1.0F);
   const float rim = kRim * facing * facing * facing * facing;
   const float height = 0.5F + 0.5F * normal.dot(lamps.up);
@@ -126,10 +139,14 @@ float ground_share(float distance) {
   return t * t * (3.0F - 2.0F * t);
 }
 
-void develop(const Layers& layers, const Color& background, Buffer<unsigned char>& pixels) {
+void develop(const Layers& layers, const PictureStyle& style, Picture& picture) {
   const ByteTable bytes;
   const auto width = static_cast<std::size_t>(layers.width);
-  pixels.resize(3 * width * static_cast<std::size_t>(layers.height));
+  const std::size_t channels = style.transparent ? 4 : 3;
+  picture.width = layers.width;
+  picture.height = layers.height;
+  picture.channels = static_cast<int>(channels);
+  picture.pixels.resize(channels * width * static_cast<std::size_t>(layers.height));
   const auto key = static_cast<std::size_t>(Plane::KeyRed);
   const auto ambient = static_cast<std::size_t>(Plane::AmbientRed);
   const auto at = [&](Plane plane, std::size_t i) { return layers.plane(plane)[i]; };
@@ -139,16 +156,42 @@ void develop(const Layers& layers, const Color& background, Buffer<unsigned char
       const float ground = at(Plane::GroundWeight, i);
       const float seen =
           kGroundKeyShare * at(Plane::GroundKeySeen, i) + (1.0F - kGroundKeyShare) * at(Plane::GroundSkySeen, i);
+      unsigned char* pixel = picture.pixels.data() + channels * i;
+      float opacity = 0.0F;  // of the shadow, where viewers blend: in sRGB
       for (std::size_t c = 0; c < 3; ++c) {
         const float shade = 1.0F - (1.0F - kGroundShadow[static_cast<Eigen::Index>(c)]) * (1.0F - seen);
-        float value = background[c] * (1.0F - coverage - ground * (1.0F - shade));
-        if (coverage > 0.0F)
-          value += coverage * tone(layers.planes[key + c][i] * at(Plane::KeySeen, i) +
-                                   layers.planes[ambient + c][i] * at(Plane::SkySeen, i));
-        pixels[3 * i + c] = bytes(value);
+        const float left = 1.0F - coverage - ground * (1.0F - shade);
+        const float shape = coverage > 0.0F ? tone(layers.planes[key + c][i] * at(Plane::KeySeen, i) +
+                                                   layers.planes[ambient + c][i] * at(Plane::SkySeen, i))
+                                            : 0.0F;
+        if (style.transparent) {
+          opacity += shadow_opacity(style.background[c], coverage, left) / 3.0F;
+          pixel[c] = bytes(shape);
+        } else {
+          pixel[c] = bytes(style.background[c] * left + coverage * shape);
+        }
       }
+      if (style.transparent) set_alpha(pixel, coverage, opacity);
     }
   });
+}
+
+Vec zebra_albedo(const Lamps& lamps, const Vec& normal, const Vec& towards) {
+  constexpr float kBands = 10.0F;
+  constexpr float kEdge = 0.06F;  // of a band: its soft edge
+  constexpr float kGrazing = 0.22F;
+  const Vec kDark(0.012F, 0.020F, 0.045F);
+  const Vec kLight(0.62F, 0.60F, 0.55F);
+  const Vec mirrored = towards - 2.0F * normal.dot(towards) * normal;
+  // Bands of equal width in the angle from an axis that leans to the side: no pole in the middle of the picture.
+  const float angle = std::acos(std::clamp(mirrored.dot(lamps.zebra_axis), -1.0F, 1.0F));
+  const float place = kBands * angle / std::numbers::pi_v<float>;
+  const float inside = std::abs(2.0F * (place - std::floor(place)) - 1.0F);  // 1 at the middle of a dark band
+  const float t = std::clamp((inside - 0.5F) / kEdge + 0.5F, 0.0F, 1.0F);
+  // Towards the silhouette the bands become finer than pixels, and would sparkle.
+  const float contrast = std::min(1.0F, std::abs(normal.dot(towards)) / kGrazing);
+  const float dark = 0.5F + contrast * (t - 0.5F);
+  return dark * kDark + (1.0F - dark) * kLight;
 }
 
 }  // namespace batten::render_detail

@@ -14,6 +14,7 @@ struct Surfel {
   Vec normal;     ///< for shading; on the eye's side
   Vec geometric;  ///< of the facet; on the eye's side
   Vec albedo;
+  float gloss = 1.0F;  ///< of the usual gloss
 };
 
 struct Lamps {
@@ -22,6 +23,7 @@ struct Lamps {
   Vec key_rise;
   Vec fill;
   Vec up;
+  Vec zebra_axis;  ///< of the bands of Shading::Zebra
 
   explicit Lamps(const Camera& camera);
 
@@ -49,7 +51,10 @@ Eigen::Vector2f spread_point(std::uint32_t i);
 inline constexpr float kGroundEnd = 3.6F;
 float ground_share(float distance);
 
-/// Puts the layers together, in 8-bit sRGB.
-void develop(const Layers& layers, const Color& background, Buffer<unsigned char>& pixels);
+/// Puts the layers together.
+void develop(const Layers& layers, const PictureStyle& style, Picture& picture);
+
+/// Of the surface that mirrors bands of light and dark, for rays along `towards`.
+Vec zebra_albedo(const Lamps& lamps, const Vec& normal, const Vec& towards);
 
 }  // namespace batten::render_detail

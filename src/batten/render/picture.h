@@ -9,14 +9,24 @@ namespace batten {
 
 using Color = std::array<float, 3>;  ///< linear, in [0, 1]
 
-/// 8-bit sRGB rows from the top, 3 bytes a pixel.
+/// 8-bit sRGB rows from the top, `channels` bytes a pixel: 3, or 4 with alpha last (not multiplied into the others).
 struct Picture {
   int width = 0;
   int height = 0;
+  int channels = 3;
   Buffer<unsigned char> pixels;
 };
 
-/// The bytes of an 8-bit RGB PNG. Throws Error(BadShape) unless the pixels are width * height * 3.
+/// What a picture stands on.
+struct PictureStyle {
+  Color background{0.96F, 0.96F, 0.95F};
+  bool transparent = false;  ///< no background, and alpha in the picture; text is chosen for `background` all the same
+};
+
+/// Throws Error(BadShape) unless both sizes are above 0 and the pixels are width * height * channels bytes.
+void check_picture(const Picture& picture);
+
+/// The bytes of an 8-bit PNG, RGB or RGBA. Throws what check_picture throws.
 Buffer<unsigned char> encode_png(const Picture& picture);
 
 /// Writes encode_png's bytes, whole or not at all (output.h). Throws Error(BadShape, FileNotWritable).

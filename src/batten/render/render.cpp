@@ -19,9 +19,15 @@ void check_options(const RenderOptions& options) {
     throw Error(ErrorCode::BadArgument, "a picture's width and height must be 1 to " + std::to_string(kLargestSide));
   if (options.samples < 1 || options.samples > kMostSamples)
     throw Error(ErrorCode::BadArgument, "samples per axis must be 1 to " + std::to_string(kMostSamples));
-  for (const float part : options.background) {
+  for (const float part : options.style.background) {
     if (!std::isfinite(part)) throw Error(ErrorCode::NotFinite, "the background's colour is not finite");
   }
+}
+
+void check_scenes(const std::vector<const Scene*>& scenes, const RenderOptions& options) {
+  check_options(options);
+  if (scenes.empty()) throw Error(ErrorCode::BadArgument, "there is no scene to fit into a picture");
+  for (const Scene* scene : scenes) check_scene(*scene);
 }
 
 void report(const Progress& progress, double done) {
@@ -30,11 +36,21 @@ void report(const Progress& progress, double done) {
 
 }  // namespace
 
+Viewpoint fit_viewpoint(const std::vector<const Scene*>& scenes, const RenderOptions& options) {
+  check_scenes(scenes, options);
+  return fitted_viewpoint(scenes, options);
+}
+
+std::vector<Viewpoint> turntable(const std::vector<const Scene*>& scenes, const RenderOptions& options, int count) {
+  check_scenes(scenes, options);
+  return turned_viewpoints(scenes, options, count);
+}
+
 Picture render(const Scene& scene, const RenderOptions& options, const Progress& progress) {
   check_options(options);
   check_scene(scene);
   report(progress, 0.0);
-  const Frame frame = frame_of(scene);
+  const Frame frame = frame_of({&scene});
   const Camera camera = camera_of(scene, frame, options);
   const Triangles triangles = triangles_of(scene, frame);
   const Overlay overlay = overlay_of(scene, frame, options);
@@ -53,9 +69,7 @@ Picture render(const Scene& scene, const RenderOptions& options, const Progress&
   report(progress, 0.9);
   smooth_light(layers, 2.0F * camera.tangent_y * camera.eye.norm() / static_cast<float>(options.height));
   Picture picture;
-  picture.width = options.width;
-  picture.height = options.height;
-  develop(layers, options.background, picture.pixels);
+  develop(layers, options.style, picture);
   report(progress, 1.0);
   return picture;
 }

@@ -10,6 +10,10 @@ namespace {
 constexpr float kLift = 2e-4F;     // off the surface, before a shadow ray starts
 constexpr float kSkyReach = 0.9F;  // what is farther than this hides no sky
 constexpr float kGroundSkyReach = 0.6F;
+constexpr int kLevelColors = 1024;
+// A surface that faces the lights shows the very colours of its bar.
+constexpr float kDataAlbedo = 0.66F;
+constexpr float kDataGloss = 0.25F;
 constexpr int kFrame = 8;  // pixels at the picture's edge that are background exactly, whatever the smoothing
 constexpr float kEverywhere = 100.0F;  // beyond anything inside the unit sphere or near it
 
@@ -121,10 +125,16 @@ Tracer::Tracer(const Scene& scene, const RenderOptions& options, const Triangles
       samples_(options.samples * options.samples),
       has_ground_(options.ground == Ground::Shadow && triangles.count() > 0 &&
                   camera.eye.dot(camera.world_up) > camera.ground_height),
+      zebra_(options.shading == Shading::Zebra),
       surface_color_(to_vec(scene.surface_color)),
       back_color_(to_vec(scene.back_color)),
       marker_color_(to_vec(scene.marker_color)),
       line_color_(to_vec(scene.line_color)) {
+  if (!triangles.levels.empty()) {
+    for (int i = 0; i < kLevelColors; ++i)
+      level_colors_.push_back(to_vec(map_color(scene.scale.map, i / (kLevelColors - 1.0))));
+    level_colors_.push_back(to_vec(map_color(scene.scale.map, std::numeric_limits<double>::quiet_NaN())));
+  }
   // A grid turned so that no two samples share a row or a column of the pixel.
   const float n = static_cast<float>(options.samples);
   for (int j = 0; j < options.samples; ++j) {
@@ -314,6 +324,7 @@ Surfel Tracer::surface_surfel(unsigned triangle, float u, float v, const Vec& to
   std::array<Vec, 3> corners;
   std::array<Vec, 3> normals;
   Surfel surfel;
+  float level = 0.0F;
   surfel.position = Vec::Zero();
   surfel.normal = Vec::Zero();
   surfel.albedo = triangles_.colors.empty() ? surface_color_ : Vec(Vec::Zero());
@@ -325,6 +336,11 @@ Surfel Tracer::surface_surfel(unsigned triangle, float u, float v, const Vec& to
     surfel.position += weight * corners[i];
     surfel.normal += weight * normals[i];
     if (!triangles_.colors.empty()) surfel.albedo += weight * triangles_.colors[vertex];
+    if (!triangles_.levels.empty()) level += weight * triangles_.levels[vertex];
+  }
+  if (!triangles_.levels.empty()) {
+    surfel.albedo = kDataAlbedo * level_color(level);
+    surfel.gloss = kDataGloss;
   }
   surfel.geometric = (corners[1] - corners[0]).cross(corners[2] - corners[0]).stableNormalized();
   const float facing = surfel.geometric.dot(towards) > 0.0F ? -1.0F : 1.0F;
@@ -335,9 +351,16 @@ Surfel Tracer::surface_surfel(unsigned triangle, float u, float v, const Vec& to
   // Given normals may point either way.
   const float side = surfel.normal.dot(surfel.geometric) < 0.0F ? -1.0F : 1.0F;
   surfel.normal *= side;
+  if (zebra_) surfel.albedo = zebra_albedo(lamps_, surfel.normal, towards);
   for (Vec& normal : normals) normal *= normal.dot(surfel.geometric) < 0.0F ? -1.0F : 1.0F;
   surfel.origin = round_origin(surfel.position, corners, normals, weights);
   return surfel;
+}
+
+Vec Tracer::level_color(float level) const {
+  if (std::isnan(level)) return level_colors_.back();
+  const int place = std::clamp(static_cast<int>(std::lround(level * (kLevelColors - 1))), 0, kLevelColors - 1);
+  return level_colors_[static_cast<std::size_t>(place)];
 }
 
 Surfel Tracer::overlay_surfel(Part part, const Vec& position, const Vec& normal) const {

@@ -29,6 +29,7 @@ class Tracer {
   float frame_share(int x, int y) const;
   int pattern_row(const Square& square, std::size_t sample) const;
   Surfel surface_surfel(unsigned triangle, float u, float v, const Vec& towards) const;
+  Vec level_color(float level) const;
   Surfel overlay_surfel(Part part, const Vec& position, const Vec& normal) const;
 
   const Triangles& triangles_;
@@ -39,10 +40,12 @@ class Tracer {
   const int height_;
   const int samples_;  ///< a pixel
   const bool has_ground_;
+  const bool zebra_;
   Vec surface_color_;
   Vec back_color_;
   Vec marker_color_;
   Vec line_color_;
+  std::vector<Vec> level_colors_;         ///< of the colour scale, from its low end to its high end; then NaN's
   std::vector<Eigen::Vector2f> offsets_;  ///< of a pixel's samples, in pixels
   std::vector<Eigen::Vector2f> pattern_;  ///< of all samples of a block of pixels
   std::vector<Vec> key_directions_;       ///< of the pattern

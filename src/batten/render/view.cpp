@@ -21,15 +21,17 @@ constexpr float kMargin = 1e-3F;
 
 /// Calls visit(point) for what the frame was made of, at most about `limit` points of each kind.
 template <typename Visit>
-void visit_points(const Scene& scene, std::size_t limit, const Visit& visit) {
-  for (const Mesh* mesh : {&scene.surface, &scene.lines}) {
-    const std::size_t corners = mesh->face_vertices.size();
-    const std::size_t stride = corners / limit + 1;
-    for (std::size_t c = 0; c < corners; c += stride) visit(mesh->points.row(mesh->face_vertices[c]));
+void visit_points(const Scenes& scenes, std::size_t limit, const Visit& visit) {
+  for (const Scene* scene : scenes) {
+    for (const Mesh* mesh : {&scene->surface, &scene->lines}) {
+      const std::size_t corners = mesh->face_vertices.size();
+      const std::size_t stride = corners / limit + 1;
+      for (std::size_t c = 0; c < corners; c += stride) visit(mesh->points.row(mesh->face_vertices[c]));
+    }
+    const auto markers = static_cast<std::size_t>(scene->markers.rows());
+    const std::size_t stride = markers / limit + 1;
+    for (std::size_t m = 0; m < markers; m += stride) visit(scene->markers.row(static_cast<Eigen::Index>(m)));
   }
-  const auto markers = static_cast<std::size_t>(scene.markers.rows());
-  const std::size_t stride = markers / limit + 1;
-  for (std::size_t m = 0; m < markers; m += stride) visit(scene.markers.row(static_cast<Eigen::Index>(m)));
 }
 
 double turn(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
@@ -112,30 +114,76 @@ Vector3d default_view(const Frame& frame, const Axes& axes) {
          std::sin(elevation) * axes.up;
 }
 
-/// The eye that sees every point within the tangents, as near as can be: each side of the frustum touches a point, or
-/// the two sides of the tighter direction do and the other direction is centred.
-Vector3d fitted_eye(const Scene& scene, const Frame& frame, const Eigen::Matrix3d& to_view, double tangent_x,
-                    double tangent_y) {
-  constexpr double kNone = -std::numeric_limits<double>::infinity();
-  Eigen::Array4d reach = Eigen::Array4d::Constant(kNone);  // right, left, top, bottom
-  visit_points(scene, std::size_t{1} << 21, [&](const Eigen::RowVector3d& point) {
-    const Vector3d at = to_view * ((point - frame.centre) * frame.scale).transpose();
-    reach = reach.max(Eigen::Array4d(at.x() + tangent_x * at.z(), -at.x() + tangent_x * at.z(),
-                                     at.y() + tangent_y * at.z(), -at.y() + tangent_y * at.z()));
-  });
-  const double distance =
-      std::max((reach[0] + reach[1]) / (2.0 * tangent_x), (reach[2] + reach[3]) / (2.0 * tangent_y));
-  // A single point gives no distance of its own.
-  const Vector3d eye(0.5 * (reach[0] - reach[1]), 0.5 * (reach[2] - reach[3]), std::max(distance, 0.1));
-  return to_view.transpose() * eye;
+Vector3d named_view(View view, const Frame& frame, const Axes& axes) {
+  switch (view) {
+    case View::Front:
+      return -axes.back;
+    case View::Back:
+      return axes.back;
+    case View::Left:
+      return -axes.right;
+    case View::Right:
+      return axes.right;
+    case View::Top:
+      return axes.up;
+    case View::Bottom:
+      return -axes.up;
+    case View::Iso:
+      return (axes.right - axes.back + axes.up).normalized();
+    case View::Auto:
+      break;
+  }
+  return default_view(frame, axes);
 }
+
+Vector3d asked_view(const RenderOptions& options, const Frame& frame, const Axes& axes) {
+  if (!options.direction) return named_view(options.view, frame, axes);
+  const Vector3d view((*options.direction)[0], (*options.direction)[1], (*options.direction)[2]);
+  if (!view.allFinite() || view.stableNorm() == 0.0)
+    throw Error(ErrorCode::BadArgument, "the view must be a finite direction other than zero");
+  return view.stableNormalized();
+}
+
+/// Rows: the picture's right and up, and the direction to the eye.
+Eigen::Matrix3d view_axes(const Vector3d& view, const Axes& axes) {
+  // Seen from straight above or below, the shape's back is at the top of the picture.
+  const bool vertical = view.cross(axes.up).norm() < 1e-6;
+  const Vector3d hint = vertical ? Vector3d(axes.back * (view.dot(axes.up) > 0.0 ? 1.0 : -1.0)) : axes.up;
+  Eigen::Matrix3d to_view;
+  to_view.row(2) = view.transpose();
+  to_view.row(0) = hint.cross(view).normalized().transpose();
+  to_view.row(1) = view.transpose().cross(to_view.row(0));
+  return to_view;
+}
+
+/// How far the shape reaches into the frustum's four sides: right, left, top, bottom.
+Eigen::Array4d reach_of(const Scenes& scenes, const Frame& frame, const Eigen::Matrix3d& to_view,
+                        const Vector2d& tangents) {
+  Eigen::Array4d reach = Eigen::Array4d::Constant(-std::numeric_limits<double>::infinity());
+  visit_points(scenes, std::size_t{1} << 21, [&](const Eigen::RowVector3d& point) {
+    const Vector3d at = to_view * ((point - frame.centre) * frame.scale).transpose();
+    reach = reach.max(Eigen::Array4d(at.x() + tangents.x() * at.z(), -at.x() + tangents.x() * at.z(),
+                                     at.y() + tangents.y() * at.z(), -at.y() + tangents.y() * at.z()));
+  });
+  return reach;
+}
+
+Vector2d tangents_of(const RenderOptions& options) {
+  const double tangent = std::tan(0.5 * kFieldOfView);
+  return {tangent * options.width / options.height, tangent};
+}
+
+std::array<double, 3> to_array(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+Vector3d to_vector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+
+constexpr double kNearest = 0.1;  // a single point gives no distance of its own
 
 }  // namespace
 
-UpAxis resolve_up(const Scene& scene, const Frame& frame, UpAxis asked) {
+UpAxis resolve_up(const Scenes& scenes, const Frame& frame, UpAxis asked) {
   if (asked != UpAxis::Auto) return asked;
   std::vector<Vector3d> points;
-  visit_points(scene, 50000, [&](const Eigen::RowVector3d& point) {
+  visit_points(scenes, 50000, [&](const Eigen::RowVector3d& point) {
     points.emplace_back(((point - frame.centre) * frame.scale).transpose());
   });
   const double on_y = steadiness(points, 1);
@@ -145,32 +193,61 @@ UpAxis resolve_up(const Scene& scene, const Frame& frame, UpAxis asked) {
   return on_y > 1.2 * on_z ? UpAxis::Y : UpAxis::Z;
 }
 
-Camera camera_of(const Scene& scene, const Frame& frame, const RenderOptions& options) {
-  const Axes axes = axes_of(resolve_up(scene, frame, options.up));
-  Vector3d view = default_view(frame, axes);
-  if (options.view) {
-    view = Vector3d((*options.view)[0], (*options.view)[1], (*options.view)[2]);
-    if (!view.allFinite() || view.stableNorm() == 0.0)
-      throw Error(ErrorCode::BadArgument, "the view must be a finite direction other than zero");
-    view.stableNormalize();
-  }
-  // Seen from straight above or below, the shape's back is at the top of the picture.
-  const bool vertical = view.cross(axes.up).norm() < 1e-6;
-  const Vector3d hint = vertical ? Vector3d(axes.back * (view.dot(axes.up) > 0.0 ? 1.0 : -1.0)) : axes.up;
-  Eigen::Matrix3d to_view;
-  to_view.row(2) = view.transpose();
-  to_view.row(0) = hint.cross(view).normalized().transpose();
-  to_view.row(1) = view.transpose().cross(to_view.row(0));
+/// As near as can be: each side of the frustum touches a point, or the two sides of the tighter direction do and the
+/// other direction is centred.
+Viewpoint fitted_viewpoint(const Scenes& scenes, const RenderOptions& options) {
+  const Frame frame = frame_of(scenes);
+  const UpAxis up = resolve_up(scenes, frame, options.up);
+  const Axes axes = axes_of(up);
+  const Vector3d view = asked_view(options, frame, axes);
+  const Eigen::Matrix3d to_view = view_axes(view, axes);
+  const Vector2d tangents = kFill * tangents_of(options);
+  const Eigen::Array4d reach = reach_of(scenes, frame, to_view, tangents);
+  const double distance =
+      std::max({(reach[0] + reach[1]) / (2.0 * tangents.x()), (reach[2] + reach[3]) / (2.0 * tangents.y()), kNearest});
+  const Vector3d target = to_view.transpose() * Vector3d(0.5 * (reach[0] - reach[1]), 0.5 * (reach[2] - reach[3]), 0.0);
+  return {to_array(frame.centre.transpose() + target / frame.scale), to_array(view), distance / frame.scale, up};
+}
 
-  const double tangent_y = std::tan(0.5 * kFieldOfView);
-  const double tangent_x = tangent_y * options.width / options.height;
+std::vector<Viewpoint> turned_viewpoints(const Scenes& scenes, const RenderOptions& options, int count) {
+  if (count < 1) throw Error(ErrorCode::BadArgument, "a turntable needs at least one picture");
+  const Frame frame = frame_of(scenes);
+  const UpAxis up = resolve_up(scenes, frame, options.up);
+  const Axes axes = axes_of(up);
+  const Vector3d first = asked_view(options, frame, axes);
+  if (first.cross(axes.up).norm() < 1e-3)
+    throw Error(ErrorCode::BadArgument, "a turntable needs a view from the side, not from straight above or below");
+  const Vector2d tangents = kFill * tangents_of(options);
+  double distance = kNearest;
+  std::vector<Viewpoint> viewpoints;
+  for (int i = 0; i < count; ++i) {
+    const Vector3d view = Eigen::AngleAxisd(360.0 * kRadians * i / count, axes.up) * first;
+    const Eigen::Array4d reach = reach_of(scenes, frame, view_axes(view, axes), tangents);
+    distance =
+        std::max({distance, reach.head<2>().maxCoeff() / tangents.x(), reach.tail<2>().maxCoeff() / tangents.y()});
+    viewpoints.push_back({to_array(frame.centre.transpose()), to_array(view), 0.0, up});
+  }
+  for (Viewpoint& viewpoint : viewpoints) viewpoint.distance = distance / frame.scale;
+  return viewpoints;
+}
+
+Camera camera_of(const Scene& scene, const Frame& frame, const RenderOptions& options) {
+  const Viewpoint viewpoint = options.viewpoint ? *options.viewpoint : fitted_viewpoint({&scene}, options);
+  const Axes axes = axes_of(viewpoint.up);
+  const Vector3d view = to_vector(viewpoint.direction).stableNormalized();
+  const Vector3d eye = to_vector(viewpoint.target) - frame.centre.transpose() + viewpoint.distance * view;
+  if (!view.allFinite() || view.isZero() || !eye.allFinite() || !(viewpoint.distance > 0.0))
+    throw Error(ErrorCode::BadArgument,
+                "the viewpoint must be finite, its direction other than zero, its distance positive");
+  const Eigen::Matrix3d to_view = view_axes(view, axes);
+  const Vector2d tangents = tangents_of(options);
   Camera camera;
-  camera.eye = fitted_eye(scene, frame, to_view, kFill * tangent_x, kFill * tangent_y).cast<float>();
+  camera.eye = (eye * frame.scale).cast<float>();
   camera.right = to_view.row(0).transpose().cast<float>();
   camera.up = to_view.row(1).transpose().cast<float>();
   camera.forward = -view.cast<float>();
-  camera.tangent_x = static_cast<float>(tangent_x);
-  camera.tangent_y = static_cast<float>(tangent_y);
+  camera.tangent_x = static_cast<float>(tangents.x());
+  camera.tangent_y = static_cast<float>(tangents.y());
   camera.world_up = axes.up.cast<float>();
   // A hair below the shape, so that a flat sheet lies on the ground rather than in it.
   camera.ground_height =

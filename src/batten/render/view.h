@@ -17,10 +17,16 @@ struct Camera {
   float ground_height;  ///< the lowest point along world_up
 };
 
-/// Y or Z, by the rule that UpAxis states.
-UpAxis resolve_up(const Scene& scene, const Frame& frame, UpAxis asked);
+using Scenes = std::vector<const Scene*>;
 
-/// Throws Error(BadArgument) for a view that is zero or not finite.
+/// Y or Z, by the rule that UpAxis states.
+UpAxis resolve_up(const Scenes& scenes, const Frame& frame, UpAxis asked);
+
+/// See fit_viewpoint and turntable. Throw Error(BadArgument) for a direction that is zero or not finite.
+Viewpoint fitted_viewpoint(const Scenes& scenes, const RenderOptions& options);
+std::vector<Viewpoint> turned_viewpoints(const Scenes& scenes, const RenderOptions& options, int count);
+
+/// From options.viewpoint, or fitted.
 Camera camera_of(const Scene& scene, const Frame& frame, const RenderOptions& options);
 
 }  // namespace batten::render_detail

@@ -1,0 +1,221 @@
+#include "cli/picture.h"
+
+#include <algorithm>
+
+#include "batten/error.h"
+#include "batten/limit/curvature.h"
+#include "batten/limit/limit_matrix.h"
+#include "batten/refine/refinement.h"
+#include "cli/common.h"
+#include "cli/vertex_fields.h"
+#ifdef BATTEN_WITH_RENDER
+#include "batten/render/panels.h"
+#endif
+
+namespace batten::cli {
+
+int picture_levels(const Topology& topology) {
+  constexpr double kFaces = 4e5;
+  double faces = std::max<Index>(topology.face_count(), 1);
+  int levels = 0;
+  while (levels < 5 && faces * 4.0 <= kFaces) {
+    faces *= 4.0;
+    ++levels;
+  }
+  return levels;
+}
+
+#ifdef BATTEN_WITH_RENDER
+
+namespace {
+
+bool is_scalar(Coloring coloring) { return coloring != Coloring::None && coloring != Coloring::Zebra; }
+
+ScaleRequest scale_request(Coloring coloring, SchemeKind kind) {
+  // Curvature has no bound at extraordinary points: a few numbers must not take the whole bar.
+  constexpr double kWild = 0.02;
+  switch (coloring) {
+    case Coloring::Error:
+      return {"error", "in the mesh's unit", ColorMap::Sequential, 0.0, true};
+    case Coloring::Moved:
+      return {"distance moved", "in the mesh's unit", ColorMap::Sequential, 0.0, false, false, kWild};
+    case Coloring::Mean:
+      return {"mean curvature", "1 / unit", ColorMap::Diverging, 0.0, false, false, kWild};
+    case Coloring::Gaussian:
+      return {"Gaussian curvature", "1 / unit²", ColorMap::Diverging, 0.0, false, false, kWild};
+    case Coloring::Valence:
+      return {"valence", "", ColorMap::Diverging, kind == SchemeKind::Loop ? 6.0 : 4.0, false, true};
+    default:
+      return {"sharpness", "levels; 10: for ever", ColorMap::Warm, 0.0, false, false};
+  }
+}
+
+/// The numbers at the control mesh's vertices.
+Eigen::VectorXd vertex_field(const Subject& subject, const Topology& topology, Coloring coloring) {
+  if (coloring == Coloring::Valence) return valences(topology);
+  if (coloring == Coloring::Sharpness) return sharpnesses(topology);
+  const Values limit = LimitMatrix(topology, subject.scheme).apply(subject.control.points);
+  if (coloring == Coloring::Moved) return (limit - subject.control.points).rowwise().norm();
+  if (!subject.targets) {
+    throw Error(ErrorCode::BadArgument,
+                "--color error needs the points that the surface should pass through: name their mesh by --targets");
+  }
+  if (subject.targets->rows() > limit.rows()) {
+    throw Error(ErrorCode::BadShape, "there are more targets (" + std::to_string(subject.targets->rows()) +
+                                         ") than vertices (" + std::to_string(limit.rows()) + ")");
+  }
+  // A mesh that was refined once for alpha has more vertices than targets; those have no error of their own.
+  const Values missed = limit.topRows(subject.targets->rows()) - *subject.targets;
+  Eigen::VectorXd errors = Eigen::VectorXd::Zero(limit.rows());
+  errors.head(missed.rows()) = missed.rowwise().norm();
+  return errors;
+}
+
+/// The refined limit surface with its exact normals and, if asked for, its numbers.
+Scene surface_scene(const Subject& subject, Coloring coloring, const Progress& progress) {
+  const Topology control(subject.control, progress);
+  const int levels = subject.levels >= 0 ? subject.levels : picture_levels(control);
+  const bool curved = coloring == Coloring::Mean || coloring == Coloring::Gaussian;
+  Eigen::VectorXd field;
+  if (is_scalar(coloring) && !curved) field = vertex_field(subject, control, coloring);
+  Topology topology = with_surface_holes(control, subject.scheme);
+  Scheme scheme = subject.scheme;
+  Values values = subject.control.points;
+  for (int level = 0; level < levels; ++level) {
+    Refinement step(topology, scheme, {}, progress);
+    values = step.apply(values, progress);
+    if (field.size() > 0) {
+      field = coloring == Coloring::Sharpness && level < 2
+                  ? spread_creases(topology, scheme.kind, field, level, control.vertex_count())
+                  : spread(topology, scheme.kind, field);
+    }
+    topology = Topology(std::move(step).child());
+    scheme = scheme.after_first_step();
+  }
+  Scene scene;
+  scene.surface.points = LimitMatrix(topology, scheme, {}, progress).apply(values, progress);
+  const Values normals = limit_normals(topology, scheme, values, LimitMasks::Exact, progress).corners;
+  if (curved) {
+    const Curvature curvature = estimate_curvature(topology, scene.surface.points, normals);
+    field = coloring == Coloring::Mean ? curvature.mean : curvature.gaussian;
+  }
+  std::vector<Index> rows;
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    if (topology.is_hole(f)) continue;
+    for (Index h = topology.face_begin(f); h < topology.face_end(f); ++h) {
+      scene.surface.face_vertices.push_back(topology.origin(h));
+      rows.push_back(h);
+    }
+    scene.surface.face_offsets.push_back(static_cast<Index>(scene.surface.face_vertices.size()));
+  }
+  scene.normals = rows.size() == static_cast<std::size_t>(normals.rows()) ? normals : Values(normals(rows, Eigen::all));
+  scene.scalars = field;
+  return scene;
+}
+
+Scene scene_of(const Subject& subject, Coloring coloring, bool quiet) {
+  Scene scene;
+  if (subject.flat || subject.control.face_count() == 0) {
+    scene.surface = subject.control;
+    if (coloring == Coloring::Mean || coloring == Coloring::Gaussian) {
+      throw Error(
+          ErrorCode::BadArgument,
+          "only the surface has a curvature, not the mesh as it is: leave --flat out, or choose another --color");
+    }
+    if (is_scalar(coloring)) scene.scalars = vertex_field(subject, Topology(subject.control), coloring);
+  } else {
+    scene = surface_scene(subject, coloring, ProgressBar("refining", quiet).callback());
+  }
+  if (is_scalar(coloring)) {
+    scene.scale = fit_color_scale(scene.scalars, scale_request(coloring, subject.scheme.kind));
+    if (coloring == Coloring::Sharpness) scene.scale.low = 0.0;
+  }
+  scene.markers = subject.markers;
+  if (subject.draw_control) scene.lines = subject.control;
+  return scene;
+}
+
+/// name.png becomes name-007.png.
+std::string numbered(const std::string& path, std::size_t number) {
+  const std::size_t dot = path.find_last_of('.');
+  const std::size_t slash = path.find_last_of('/');
+  const bool has_type = dot != std::string::npos && (slash == std::string::npos || dot > slash);
+  const std::string digits = std::to_string(number);
+  const std::string part = "-" + std::string(3 - std::min<std::size_t>(3, digits.size()), '0') + digits;
+  return has_type ? path.substr(0, dot) + part + path.substr(dot) : path + part;
+}
+
+/// One panel of every picture.
+struct Shot {
+  const Scene* scene;
+  std::string caption;
+  Shading shading;
+};
+
+std::vector<Viewpoint> viewpoints_of(const std::vector<Shot>& shots, const RenderOptions& options, int around) {
+  std::vector<const Scene*> scenes;
+  for (const Shot& shot : shots) scenes.push_back(shot.scene);
+  if (around > 0) return turntable(scenes, options, around);
+  return {fit_viewpoint(scenes, options)};
+}
+
+int picture_height(const PictureArguments& arguments) {
+  return std::max(1, arguments.width * 3 / (arguments.before_after ? 8 : 4));
+}
+
+}  // namespace
+
+void draw(const Subject& subject, const PictureArguments& arguments, bool quiet) {
+  const Scene after = scene_of(subject, arguments.coloring, quiet);
+  Scene before;
+  before.surface = subject.before;
+  std::vector<Shot> shots;
+  if (arguments.before_after) shots.push_back({&before, subject.before_caption, Shading::Plain});
+  shots.push_back({&after, arguments.before_after ? subject.after_caption : "",
+                   arguments.coloring == Coloring::Zebra ? Shading::Zebra : Shading::Plain});
+  RenderOptions options;
+  options.samples = arguments.samples;
+  options.view = arguments.view;
+  options.direction = arguments.direction;
+  options.style.transparent = arguments.transparent;
+  options.height = arguments.height > 0 ? arguments.height : picture_height(arguments);
+  Panel bar;
+  if (is_scalar(arguments.coloring)) bar.picture = draw_color_bar(after.scale, options.height, options.style);
+  options.width = (arguments.width - bar.picture.width) / static_cast<int>(shots.size());
+  if (options.width < 1) {
+    throw Error(ErrorCode::BadArgument, "the picture is too narrow for its colour bar, which takes " +
+                                            std::to_string(bar.picture.width) + " pixels; ask for a larger --width");
+  }
+  const std::vector<Viewpoint> viewpoints = viewpoints_of(shots, options, arguments.turntable);
+  ProgressBar progress("drawing", quiet);
+  const Progress report = progress.callback();
+  const double share = 1.0 / static_cast<double>(viewpoints.size() * shots.size());
+  double done = 0.0;
+  for (std::size_t i = 0; i < viewpoints.size(); ++i) {
+    options.viewpoint = viewpoints[i];
+    std::vector<Panel> panels;
+    int left = arguments.width - bar.picture.width;
+    for (const Shot& shot : shots) {
+      RenderOptions own = options;
+      own.shading = shot.shading;
+      if (&shot == &shots.back()) own.width = left;  // with what the division left over
+      left -= own.width;
+      const Progress part = [&](double here) { return !report || report(done + share * here); };
+      panels.push_back({render(*shot.scene, own, part), shot.caption});
+      done += share;
+    }
+    if (bar.picture.width > 0) panels.push_back(bar);
+    const Picture picture = panels.size() == 1 ? std::move(panels.front().picture) : beside(panels, options.style);
+    write_png(arguments.turntable > 0 ? numbered(arguments.path, i) : arguments.path, picture);
+  }
+}
+
+#else
+
+void draw(const Subject& /*subject*/, const PictureArguments& /*arguments*/, bool /*quiet*/) {
+  throw Error(ErrorCode::NotAvailable, "this build has no pictures; configure with BATTEN_WITH_RENDER=ON");
+}
+
+#endif
+
+}  // namespace batten::cli

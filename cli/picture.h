@@ -1,0 +1,30 @@
+/// \file From a control mesh to its pictures: the surface, its colours, the bar, panels, the turntable.
+#pragma once
+#include <optional>
+
+#include "batten/mesh/topology.h"
+#include "cli/arguments.h"
+
+namespace batten::cli {
+
+/// What a verb has to show.
+struct Subject {
+  Mesh control;  ///< the control mesh, or what is drawn as it is
+  Scheme scheme;
+  int levels = -1;            ///< refinement before the limit positions; -1: as many as make the picture smooth
+  bool flat = false;          ///< as it is, not its surface
+  bool draw_control = false;  ///< as lines
+  Points markers = Points(0, 3);
+  std::optional<Points> targets;  ///< of the vertices, for Coloring::Error
+  Mesh before;                    ///< as it is, for the left panel
+  std::string before_caption;
+  std::string after_caption;
+};
+
+/// Levels that make some 400,000 faces, but at most 5.
+int picture_levels(const Topology& topology);
+
+/// Draws and writes. Throws what the operators throw, and Error(NotAvailable) in a build without pictures.
+void draw(const Subject& subject, const PictureArguments& arguments, bool quiet);
+
+}  // namespace batten::cli

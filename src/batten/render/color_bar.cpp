@@ -1,0 +1,115 @@
+#include <algorithm>
+#include <cmath>
+
+#include "batten/error.h"
+#include "batten/render/canvas.h"
+#include "batten/render/color_scale.h"
+#include "batten/render/ticks.h"
+
+namespace batten {
+namespace {
+
+using namespace render_detail;
+
+constexpr int kStripes = 256;  // of one colour each
+
+struct Words {
+  std::string text;
+  Spot at;
+  TextStyle style;
+};
+
+/// Where everything stands, in pixels; the width is known when all words are.
+class BarLayout {
+ public:
+  BarLayout(const ColorScale& scale, int height, const PictureStyle& style)
+      : scale_(scale), unit_(height / 1200.0), ink_(text_ink(style)), measure_(1, 1, Canvas::Kind::Picture) {
+    const double centre = 0.5 * height + 30 * unit_;
+    top_ = centre - 320 * unit_;
+    bottom_ = centre + 320 * unit_;
+    TextStyle title{30 * unit_, ink_, Align::Left, true};
+    add({scale.title, {0.0, top_ - 132 * unit_}, title});
+    add({scale.unit, {0.0, top_ - 92 * unit_}, {26 * unit_, soft()}});
+    for (const Tick& tick : ticks()) {
+      const double y = level(tick.value);
+      tick_heights_.push_back(y);
+      add({tick.text, {kBar * unit_ + 20 * unit_, y + 9.5 * unit_}, {26 * unit_, ink_}});
+    }
+    if (reaches_above()) add({"max " + number_text(scale.highest), {0.0, top_ - 46 * unit_}, {24 * unit_, soft()}});
+    if (reaches_below()) add({"min " + number_text(scale.lowest), {0.0, bottom_ + 64 * unit_}, {24 * unit_, soft()}});
+  }
+
+  int width() const { return static_cast<int>(std::ceil(right_ + 2 * kEdge * unit_)); }
+
+  void draw(Canvas& canvas) const {
+    const double left = kEdge * unit_;
+    const double step = (bottom_ - top_) / kStripes;
+    for (int i = 0; i < kStripes; ++i) {
+      // Each stripe reaches under the next, so that no seam shows.
+      const double y = top_ + i * step;
+      canvas.rectangle({left, y}, {kBar * unit_, std::min(step + 1.0, bottom_ - y)},
+                       ink_of(map_color(scale_.map, (kStripes - 1 - i) / (kStripes - 1.0))));
+    }
+    arrow(canvas, top_, -1.0, 1.0, reaches_above());
+    arrow(canvas, bottom_, 1.0, 0.0, reaches_below());
+    for (const double y : tick_heights_)
+      canvas.line({{left + kBar * unit_, y}, {left + (kBar + 10) * unit_, y}}, {2 * unit_, ink_});
+    for (const Words& words : words_) canvas.text(words.at + Spot(left, 0.0), words.text, words.style);
+  }
+
+ private:
+  static constexpr double kBar = 44;
+  static constexpr double kEdge = 40;
+  static constexpr double kArrow = 26;
+
+  Ink soft() const { return {ink_.red, ink_.green, ink_.blue, 0.72}; }
+  bool reaches_above() const { return scale_.highest > scale_.high + 1e-9 * std::abs(scale_.high); }
+  bool reaches_below() const { return scale_.lowest < scale_.low - 1e-9 * std::abs(scale_.low); }
+  double level(double value) const { return bottom_ - scale_.position(value) * (bottom_ - top_); }
+
+  std::vector<Tick> ticks() const {
+    if (scale_.log) return log_ticks(scale_.low, scale_.high, 7);
+    const double range = scale_.high - scale_.low;
+    std::vector<Tick> found =
+        linear_ticks(scale_.low, scale_.high, scale_.whole ? std::clamp(static_cast<int>(range), 1, 6) : 6);
+    if (scale_.whole) std::erase_if(found, [](const Tick& tick) { return tick.value != std::round(tick.value); });
+    return found;
+  }
+
+  void add(Words words) {
+    if (words.text.empty()) return;
+    right_ = std::max(right_, words.at.x() + measure_.text_width(words.text, words.style));
+    words_.push_back(std::move(words));
+  }
+
+  void arrow(Canvas& canvas, double y, double way, double position, bool shown) const {
+    if (!shown) return;
+    const double left = kEdge * unit_;
+    canvas.polygon({{left, y}, {left + kBar * unit_, y}, {left + 0.5 * kBar * unit_, y + way * kArrow * unit_}},
+                   ink_of(map_color(scale_.map, position)));
+  }
+
+  const ColorScale& scale_;
+  double unit_;
+  Ink ink_;
+  Canvas measure_;
+  double top_;
+  double bottom_;
+  double right_ = 0.0;
+  std::vector<Words> words_;
+  std::vector<double> tick_heights_;
+};
+
+}  // namespace
+
+Picture draw_color_bar(const ColorScale& scale, int height, const PictureStyle& style) {
+  if (height < 16 || height > 32768)
+    throw Error(ErrorCode::BadArgument, "a colour bar's height must be 16 to 32768 pixels");
+  const BarLayout layout(scale, height, style);
+  Canvas canvas(layout.width(), height, style.transparent ? Canvas::Kind::Clear : Canvas::Kind::Picture);
+  if (!style.transparent) canvas.fill(ink_of(style.background));
+  layout.draw(canvas);
+  return canvas.picture();
+}
+
+}  // namespace batten

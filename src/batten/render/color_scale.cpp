@@ -1,0 +1,108 @@
+#include "batten/render/color_scale.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "batten/error.h"
+#include "batten/render/srgb.h"
+
+namespace batten {
+namespace {
+
+// Every eighth of viridis, and every sixteenth of the cool to warm map, in bytes of sRGB.
+constexpr unsigned char kSequential[][3] = {{68, 1, 84},    {71, 44, 122},  {59, 81, 139},
+                                            {44, 113, 142}, {33, 144, 141}, {39, 173, 129},
+                                            {92, 200, 99},  {170, 220, 50}, {253, 231, 37}};
+constexpr unsigned char kDiverging[][3] = {
+    {59, 76, 192},   {77, 104, 215},  {98, 130, 234},  {119, 154, 247}, {141, 176, 254}, {163, 194, 255},
+    {184, 208, 249}, {204, 217, 238}, {221, 221, 221}, {236, 211, 197}, {245, 196, 173}, {247, 177, 148},
+    {244, 154, 123}, {236, 127, 99},  {222, 96, 77},   {203, 62, 56},   {180, 4, 38}};
+constexpr Color kMissing{0.35F, 0.35F, 0.35F};
+
+template <std::size_t N>
+Color between(const unsigned char (&table)[N][3], double position) {
+  const double place = std::clamp(position, 0.0, 1.0) * (N - 1);
+  const auto first = std::min(static_cast<std::size_t>(place), N - 2);
+  const auto share = static_cast<float>(place - static_cast<double>(first));
+  Color color;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const float mixed = (1.0F - share) * table[first][c] + share * table[first + 1][c];
+    color[c] = render_detail::decode_srgb(mixed / 255.0F);
+  }
+  return color;
+}
+
+/// The number that a share of all is below.
+double quantile(std::vector<double>& values, double share) {
+  const auto place = static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(values.size() - 1)));
+  std::nth_element(values.begin(), values.begin() + place, values.end());
+  return values[static_cast<std::size_t>(place)];
+}
+
+void fit_log(std::vector<double>& values, double outliers, ColorScale& scale) {
+  constexpr double kMostRange = 1e6;
+  std::erase_if(values, [](double value) { return value <= 0.0; });
+  scale.high = quantile(values, 1.0 - outliers);
+  scale.low = std::max(quantile(values, outliers), scale.high / kMostRange);
+  if (scale.high <= scale.low * 1.01) {
+    scale.low /= 2.0;
+    scale.high *= 2.0;
+  }
+}
+
+}  // namespace
+
+Color map_color(ColorMap map, double position) {
+  if (std::isnan(position)) return kMissing;
+  if (map == ColorMap::Sequential) return between(kSequential, position);
+  return between(kDiverging, map == ColorMap::Warm ? 0.5 + 0.5 * std::clamp(position, 0.0, 1.0) : position);
+}
+
+double ColorScale::position(double value) const {
+  if (std::isnan(value)) return value;
+  if (!log) return std::clamp((value - low) / (high - low), 0.0, 1.0);
+  return value <= low ? 0.0 : std::min(std::log(value / low) / std::log(high / low), 1.0);
+}
+
+ColorScale fit_color_scale(const Eigen::VectorXd& values, const ScaleRequest& request) {
+  if (!(request.outliers >= 0.0 && request.outliers <= 0.4))
+    throw Error(ErrorCode::BadArgument, "the share of outliers must be 0 to 0.4");
+  ColorScale scale;
+  scale.map = request.map;
+  scale.title = request.title;
+  scale.unit = request.unit;
+  scale.whole = request.whole;
+  std::vector<double> finite;
+  for (const double value : values) {
+    if (std::isfinite(value)) finite.push_back(value);
+  }
+  if (finite.empty()) finite.push_back(request.middle);
+  scale.lowest = *std::min_element(finite.begin(), finite.end());
+  scale.highest = *std::max_element(finite.begin(), finite.end());
+  if (request.map != ColorMap::Diverging && request.log && scale.highest > 0.0) {
+    scale.log = true;
+    fit_log(finite, request.outliers, scale);
+    return scale;
+  }
+  scale.low = quantile(finite, request.outliers);
+  scale.high = quantile(finite, 1.0 - request.outliers);
+  if (request.map != ColorMap::Diverging && scale.lowest >= 0.0 && scale.low < 0.3 * scale.high) scale.low = 0.0;
+  if (request.map == ColorMap::Diverging) {
+    const double reach = std::max(scale.high - request.middle, request.middle - scale.low);
+    scale.low = request.middle - reach;
+    scale.high = request.middle + reach;
+  }
+  // A bar needs a length: rounding is no difference.
+  const double size = std::max({std::abs(scale.low), std::abs(scale.high), std::numeric_limits<double>::min()});
+  if (!(scale.high - scale.low > 1e-9 * size)) {
+    const double reach = request.whole || scale.high == 0.0 ? 1.0 : 0.5 * std::abs(scale.high);
+    const double centre = scale.high;
+    scale.low = request.map != ColorMap::Diverging && centre >= 0.0 ? std::max(0.0, centre - reach) : centre - reach;
+    scale.high = centre + reach;
+  }
+  return scale;
+}
+
+}  // namespace batten
