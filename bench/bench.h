@@ -59,6 +59,9 @@ class Sweeps {
 /// Eigen's conjugate gradients with a diagonal preconditioner, triplet assembly included; returns the largest miss.
 double eigen_conjugate_gradients(const Subject& subject, double relative_tolerance);
 
+/// The processor, the compiler and the copy bandwidth.
+std::string machine();
+
 std::string interpolation_section();
 std::string growth_section();
 std::string process_section();

@@ -4,26 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include "batten/limit/limit_matrix.h"
 #include "batten/limit/ring_limit.h"
-#include "batten/parallel/parallel.h"
 
 namespace batten {
 
 namespace {
-
-/// Point-major to weight-major with padded rows, rounded to Scalar.
-template <typename Scalar>
-Buffer<Scalar> transposed(const Buffer<double>& weights, std::ptrdiff_t per_point, std::ptrdiff_t stride) {
-  const std::ptrdiff_t points = static_cast<std::ptrdiff_t>(weights.size()) / per_point;
-  Buffer<Scalar> result(static_cast<std::size_t>(per_point * stride), Scalar(0));
-  for (std::ptrdiff_t p = 0; p < points; ++p) {
-    for (std::ptrdiff_t j = 0; j < per_point; ++j) {
-      result[j * stride + p] = static_cast<Scalar>(weights[p * per_point + j]);
-    }
-  }
-  return result;
-}
 
 /// out[i] = origin + sum over four terms of weight[j * weight_stride] * in[j * stride + i].
 template <typename Scalar>
@@ -71,23 +56,6 @@ void scale_to_one(Scalar* control, const Index* rows, int count, int columns) {
   for (int i = 0; i < count * columns; ++i) control[i] *= scale;
 }
 
-/// Up to this size a sum of all sixteen points takes less than two passes of four.
-constexpr int kLargestDensePatch = 16;
-
-/// Weights of the tensor product, point by point.
-Buffer<double> product(const Buffer<double>& u, const Buffer<double>& v) {
-  Buffer<double> weights;
-  weights.reserve(u.size() * v.size());
-  for (std::size_t j = 0; j < v.size(); j += 4) {
-    for (std::size_t i = 0; i < u.size(); i += 4) {
-      for (std::size_t b = 0; b < 4; ++b) {
-        for (std::size_t a = 0; a < 4; ++a) weights.push_back(v[j + b] * u[i + a]);
-      }
-    }
-  }
-  return weights;
-}
-
 /// Position or tangent of the limit at the origin of a half-edge, on that half-edge's side, as weights of vertices.
 template <typename Visit>
 void visit_limit(const Topology& topology, const Scheme& scheme, TileValue value, Index half_edge, const Visit& visit) {
@@ -113,63 +81,6 @@ void visit_limit(const Topology& topology, const Scheme& scheme, TileValue value
 }
 
 }  // namespace
-
-template <typename Scalar>
-PieceTables<Scalar>::PieceTables(const Pieces& pieces, TileValue value) : value_(value) {
-  const bool quads = pieces.scheme().kind == SchemeKind::CatmullClark;
-  for (int level = 0; level <= pieces.levels(); ++level) {
-    const int size = 1 << level;
-    Patch patch;
-    if (quads) {
-      const TileValue plain = value == TileValue::Refined ? TileValue::Refined : TileValue::Limit;
-      const auto u = curve_weights(size, value == TileValue::TangentU ? value : plain);
-      const auto v = curve_weights(size, value == TileValue::TangentV ? TileValue::TangentU : plain);
-      patch.dense = size <= kLargestDensePatch;
-      if (patch.dense) {
-        patch.stride = padded(std::ptrdiff_t{size + 1} * (size + 1));
-        patch.u = transposed<Scalar>(product(u, v), 16, patch.stride);
-      } else {
-        patch.stride = size + 1;
-        patch.u = transposed<Scalar>(u, 4, patch.stride);
-        patch.v = transposed<Scalar>(v, 4, patch.stride);
-      }
-    } else {
-      patch.dense = true;
-      patch.stride = padded(std::ptrdiff_t{size + 1} * (size + 2) / 2);
-      patch.u = transposed<Scalar>(triangle_weights(size, value), kTrianglePatchSize, patch.stride);
-    }
-    patches_.push_back(std::move(patch));
-  }
-  rings_.resize(pieces.configurations().size());
-  parallel_for_each(static_cast<std::ptrdiff_t>(rings_.size()), [&](std::ptrdiff_t i) {
-    // The points of the configuration's face 0, once, with the one-ring's unit vectors for values.
-    const Pieces::Configuration& shared = pieces.configurations()[i];
-    int levels = 0;
-    while ((Index{1} << levels) < shared.size) ++levels;
-    const Pieces own(shared.topology, pieces.scheme(), levels, 0);
-    const Index vertices = shared.topology.vertex_count();
-    const Values unit = Values::Identity(vertices, vertices);
-    const LevelValues values(own, unit);
-    const PieceTables<double> tables(own, value);
-    PieceGrid<double> grid(shared.size, vertices);
-    GridFiller<double>(own, tables, values).fill(0, grid);
-    Buffer<double> weights;
-    for (Index j = 0; j <= shared.size; ++j) {
-      for (Index x = 0; x <= shared.size - (quads ? 0 : j); ++x) {
-        for (Index k = 0; k < vertices; ++k) weights.push_back(grid.plane(k)[grid.place(x, j)]);
-      }
-    }
-    Ring& ring = rings_[i];
-    ring.vertices = vertices;
-    ring.stride = padded(static_cast<std::ptrdiff_t>(weights.size()) / vertices);
-    ring.weights = transposed<Scalar>(weights, vertices, ring.stride);
-  });
-}
-
-template <typename Scalar>
-const typename PieceTables<Scalar>::Patch& PieceTables<Scalar>::patch(Index size) const {
-  return patches_[static_cast<std::size_t>(__builtin_ctz(static_cast<unsigned>(size)))];
-}
 
 LevelValues::LevelValues(const Pieces& pieces, ConstValuesRef base) : base_(base) {
   storage_.reserve(static_cast<std::size_t>(pieces.region_count()));
@@ -311,8 +222,6 @@ void GridFiller<Scalar>::fill(Index face, PieceGrid<Scalar>& grid) {
   }
 }
 
-template class PieceTables<float>;
-template class PieceTables<double>;
 template class GridFiller<float>;
 template class GridFiller<double>;
 

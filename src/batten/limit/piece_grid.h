@@ -1,16 +1,10 @@
 /// \file The points of one face's grid, filled piece by piece in the cache.
 #pragma once
-#include <memory>
 #include <vector>
 
-#include "batten/limit/tile_weights.h"
-#include "batten/refine/pieces.h"
+#include "batten/limit/piece_tables.h"
 
 namespace batten {
-
-/// Points are summed in registers, so many at a time; rows of weights and planes are padded to multiples.
-inline constexpr std::ptrdiff_t kGridLanes = 32;
-constexpr std::ptrdiff_t padded(std::ptrdiff_t points) { return (points + kGridLanes - 1) / kGridLanes * kGridLanes; }
 
 /// A face's points in planes of their own, one a column: (i, j) at (steps + 1) j + i.
 template <typename Scalar>
@@ -26,38 +20,6 @@ struct PieceGrid {
   std::ptrdiff_t place(Index i, Index j) const { return width() * j + i; }
   Scalar* plane(int column) { return planes.data() + column * plane_size(); }
   const Scalar* plane(int column) const { return planes.data() + column * plane_size(); }
-};
-
-/// How one kind of value follows from control points, for patches of every size and for every configuration.
-template <typename Scalar>
-class PieceTables {
- public:
-  PieceTables(const Pieces& pieces, TileValue value);
-
-  TileValue value() const { return value_; }
-
-  /// Dense: weight k of point p at k * stride + p in u, points row by row. Otherwise a tensor product: weight j of
-  /// point i of a curve at j * stride + i, along u and along v.
-  struct Patch {
-    bool dense;
-    std::ptrdiff_t stride;
-    Buffer<Scalar> u;
-    Buffer<Scalar> v;
-  };
-  const Patch& patch(Index size) const;
-
-  /// Weight k of point p at k * stride + p; points row by row, of triangles the rows that fit.
-  struct Ring {
-    std::ptrdiff_t stride;
-    Index vertices;
-    Buffer<Scalar> weights;
-  };
-  const Ring& ring(std::int32_t configuration) const { return rings_[configuration]; }
-
- private:
-  TileValue value_;
-  std::vector<Patch> patches_;
-  std::vector<Ring> rings_;
 };
 
 /// Control values for the pieces of all levels.

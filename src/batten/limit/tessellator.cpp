@@ -10,6 +10,7 @@
 
 #include "batten/error.h"
 #include "batten/limit/piece_grid.h"
+#include "batten/limit/tessellation_layout.h"
 #include "batten/parallel/parallel.h"
 
 namespace batten {
@@ -21,33 +22,6 @@ constexpr std::ptrdiff_t kPointsPerBlock = 16384;
 bool needs_first_step(const Topology& topology, const Scheme& scheme) {
   return scheme.kind == SchemeKind::CatmullClark && (topology.uniform_face_size() != 4 || scheme.alpha > 0.0);
 }
-
-/// Where the vertices of a refined base stand.
-struct Layout {
-  Index steps;
-  bool quads;
-  std::int64_t edge_start;  ///< of the points inside edges
-  std::int64_t face_start;
-  std::int64_t per_edge;
-  std::int64_t per_face;
-  std::int64_t vertices;
-  std::int64_t faces_per_face;
-
-  Layout(const Topology& base, bool quads_in, int levels) : steps(Index{1} << levels), quads(quads_in) {
-    per_edge = steps - 1;
-    per_face = quads ? per_edge * per_edge : per_edge * (per_edge - 1) / 2;
-    edge_start = base.vertex_count();
-    face_start = edge_start + per_edge * base.edge_count();
-    vertices = face_start + per_face * base.face_count();
-    faces_per_face = std::int64_t{steps} * steps;
-  }
-  std::int64_t inside_face(Index face, Index j) const {
-    const std::int64_t rows = j - 1;
-    return face_start + per_face * face + (quads ? rows * per_edge : rows * per_edge - rows * (rows + 1) / 2);
-  }
-  /// Number of grid points in row j.
-  Index row_length(Index j) const { return quads ? steps + 1 : steps + 1 - j; }
-};
 
 }  // namespace
 
@@ -62,7 +36,7 @@ struct Tessellator::Parts {
   Scheme scheme;
   std::unique_ptr<Refinement> first;  ///< to the base, where the control mesh itself is not
   Pieces pieces;
-  Layout layout;
+  TessellationLayout layout;
   Buffer<Index> face_rank;  ///< number of drawn base faces before each; empty: all are drawn
   Index drawn_faces;
   mutable std::tuple<TableCache<float>, TableCache<double>> caches;
@@ -136,62 +110,62 @@ void normals_of(PieceGrid<Scalar>& u, const PieceGrid<Scalar>& v) {
   }
 }
 
-/// Copies what a face owns of its grid: inner points, an edge by the face of its lower half-edge, a vertex by the face
-/// of its first.
-template <typename Scalar>
-class GridWriter {
+/// The faces of one grid after the other, from the numbers of two rows of points.
+class RowNumbers {
  public:
-  GridWriter(const Topology& base, const Layout& layout, Scalar* out) : base_(base), layout_(layout), out_(out) {}
+  RowNumbers(const Topology& base, const TessellationLayout& layout)
+      : base_(base), layout_(layout), low_(static_cast<std::size_t>(layout.steps) + 1), high_(low_.size()) {}
 
-  void write(Index face, const PieceGrid<Scalar>& grid) const {
-    const Index n = layout_.steps;
-    for (Index j = 1; j < n; ++j) {
-      const Index inside = layout_.row_length(j) - 2;
-      if (inside > 0) copy(grid, layout_.inside_face(face, j), grid.place(1, j), 1, inside);
-    }
-    const Index first = base_.face_begin(face);
-    const Index corners = layout_.quads ? 4 : 3;
-    for (Index c = 0; c < corners; ++c) {
-      const Index h = first + c;
-      const std::ptrdiff_t here = corner_place(c, grid);
-      const std::ptrdiff_t step = (corner_place((c + 1) % corners, grid) - here) / n;
-      if (base_.vertex_half_edge(base_.origin(h)) == h) copy(grid, base_.origin(h), here, 1, 1);
-      if (base_.edge_half_edge(base_.edge(h)) != h) continue;
-      copy(grid, layout_.edge_start + layout_.per_edge * base_.edge(h), here + step, step, n - 1);
+  void write_face(Index face, Index* to) {
+    number(face, 0, low_);
+    for (Index j = 0; j < layout_.steps; ++j) {
+      number(face, j + 1, high_);
+      to = layout_.quads ? write_quads(to) : write_triangles(layout_.steps - j, to);
+      std::swap(low_, high_);
     }
   }
 
  private:
-  void copy(const PieceGrid<Scalar>& grid, std::int64_t vertex, std::ptrdiff_t place, std::ptrdiff_t step,
-            std::ptrdiff_t count) const {
-    const std::ptrdiff_t k = grid.columns;
-    Scalar* __restrict to = out_ + vertex * k;
-    if (k == 3 && step == 1) {
-      const Scalar* __restrict x = grid.plane(0) + place;
-      const Scalar* __restrict y = grid.plane(1) + place;
-      const Scalar* __restrict z = grid.plane(2) + place;
-      for (std::ptrdiff_t i = 0; i < count; ++i) {
-        to[3 * i] = x[i];
-        to[3 * i + 1] = y[i];
-        to[3 * i + 2] = z[i];
-      }
-      return;
-    }
-    for (int c = 0; c < k; ++c) {
-      const Scalar* from = grid.plane(c) + place;
-      for (std::ptrdiff_t i = 0; i < count; ++i) to[k * i + c] = from[step * i];
-    }
+  void number(Index face, Index j, Buffer<Index>& row) const {
+    const Index last = layout_.row_length(j) - 1;
+    const bool inner = j > 0 && j < layout_.steps;
+    row[0] = layout_.vertex(base_, face, 0, j);
+    row[last] = layout_.vertex(base_, face, last, j);
+    const auto first = static_cast<Index>(inner ? layout_.inside_face(face, j) : 0);
+    for (Index i = 1; i < last; ++i) row[i] = inner ? first + i - 1 : layout_.vertex(base_, face, i, j);
   }
 
-  std::ptrdiff_t corner_place(Index corner, const PieceGrid<Scalar>& grid) const {
-    const Index n = layout_.steps;
-    if (layout_.quads) return grid.place(corner == 1 || corner == 2 ? n : 0, corner >= 2 ? n : 0);
-    return grid.place(corner == 1 ? n : 0, corner == 2 ? n : 0);
+  Index* write_quads(Index* __restrict to) const {
+    for (Index i = 0; i < layout_.steps; ++i) {
+      to[4 * i] = low_[i];
+      to[4 * i + 1] = low_[i + 1];
+      to[4 * i + 2] = high_[i + 1];
+      to[4 * i + 3] = high_[i];
+    }
+    return to + 4 * layout_.steps;
+  }
+
+  /// `count` upright triangles with the turned ones between them.
+  Index* write_triangles(Index count, Index* __restrict to) const {
+    for (Index i = 0; i + 1 < count; ++i) {
+      to[6 * i] = low_[i];
+      to[6 * i + 1] = low_[i + 1];
+      to[6 * i + 2] = high_[i];
+      to[6 * i + 3] = high_[i + 1];
+      to[6 * i + 4] = high_[i];
+      to[6 * i + 5] = low_[i + 1];
+    }
+    to += 6 * (count - 1);
+    to[0] = low_[count - 1];
+    to[1] = low_[count];
+    to[2] = high_[count - 1];
+    return to + 3;
   }
 
   const Topology& base_;
-  const Layout& layout_;
-  Scalar* out_;
+  const TessellationLayout& layout_;
+  Buffer<Index> low_;
+  Buffer<Index> high_;
 };
 
 }  // namespace
@@ -277,32 +251,11 @@ void Tessellator::limit(ConstValuesRef control, std::span<Scalar> out, std::span
 }
 
 Index Tessellator::vertex(Index base_face, Index i, Index j) const {
-  const Layout& layout = parts_->layout;
-  const Topology& base = parts_->base();
-  const Index n = layout.steps;
-  const Index first = base.face_begin(base_face);
-  const auto on_edge = [&](Index c, Index from_origin) {
-    const Index h = first + c;
-    if (from_origin == 0) return base.origin(h);
-    const bool lower = base.edge_half_edge(base.edge(h)) == h;
-    return static_cast<Index>(layout.edge_start + layout.per_edge * base.edge(h) +
-                              (lower ? from_origin : n - from_origin) - 1);
-  };
-  if (layout.quads) {
-    if (j == 0 && i < n) return on_edge(0, i);
-    if (i == n && j < n) return on_edge(1, j);
-    if (j == n && i > 0) return on_edge(2, n - i);
-    if (i == 0) return on_edge(3, n - j);
-  } else {
-    if (j == 0 && i < n) return on_edge(0, i);
-    if (i + j == n && j < n) return on_edge(1, j);
-    if (i == 0) return on_edge(2, n - j);
-  }
-  return static_cast<Index>(layout.inside_face(base_face, j) + i - 1);
+  return parts_->layout.vertex(parts_->base(), base_face, i, j);
 }
 
 void Tessellator::faces(std::span<Index> out) const {
-  const Layout& layout = parts_->layout;
+  const TessellationLayout& layout = parts_->layout;
   const Topology& base = parts_->base();
   const std::size_t per_face = static_cast<std::size_t>(layout.faces_per_face) * static_cast<std::size_t>(face_size());
   if (out.size() != per_face * static_cast<std::size_t>(parts_->drawn_faces)) {
@@ -314,46 +267,10 @@ void Tessellator::faces(std::span<Index> out) const {
   parallel_for(
       base.face_count(),
       [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-        Buffer<Index> low(static_cast<std::size_t>(layout.steps) + 1);
-        Buffer<Index> high(low.size());
-        const auto number_row = [&](Index f, Index j, Buffer<Index>& row) {
-          const Index last = layout.row_length(j) - 1;
-          const bool inner = j > 0 && j < layout.steps;
-          row[0] = vertex(f, 0, j);
-          row[last] = vertex(f, last, j);
-          const auto first = static_cast<Index>(inner ? layout.inside_face(f, j) : 0);
-          for (Index i = 1; i < last; ++i) row[i] = inner ? first + i - 1 : vertex(f, i, j);
-        };
+        RowNumbers numbers(base, layout);
         for (auto f = static_cast<Index>(begin); f < end; ++f) {
           const Index rank = parts_->face_rank.empty() ? f : parts_->face_rank[f];
-          if (rank < 0) continue;
-          Index* to = out.data() + static_cast<std::size_t>(rank) * per_face;
-          number_row(f, 0, low);
-          for (Index j = 0; j < layout.steps; ++j) {
-            number_row(f, j + 1, high);
-            if (layout.quads) {
-              for (Index i = 0; i < layout.steps; ++i, to += 4) {
-                to[0] = low[i];
-                to[1] = low[i + 1];
-                to[2] = high[i + 1];
-                to[3] = high[i];
-              }
-            } else {
-              for (Index i = 0; i + j < layout.steps; ++i) {
-                const bool turned = i + j + 1 < layout.steps;
-                to[0] = low[i];
-                to[1] = low[i + 1];
-                to[2] = high[i];
-                to += 3;
-                if (!turned) continue;
-                to[0] = high[i + 1];
-                to[1] = high[i];
-                to[2] = low[i + 1];
-                to += 3;
-              }
-            }
-            std::swap(low, high);
-          }
+          if (rank >= 0) numbers.write_face(f, out.data() + static_cast<std::size_t>(rank) * per_face);
         }
       },
       block);

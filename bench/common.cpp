@@ -1,0 +1,80 @@
+/// What all benches share.
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "batten/parallel/parallel.h"
+#include "bench/bench.h"
+
+namespace batten::bench {
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+double seconds_of(const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::vector<double> in_turn(const std::vector<std::function<void()>>& works, int rounds) {
+  std::vector<std::vector<double>> seconds(works.size());
+  for (int round = -1; round < rounds; ++round) {
+    for (std::size_t i = 0; i < works.size(); ++i) {
+      const double taken = seconds_of(works[i]);
+      if (round >= 0) seconds[i].push_back(taken);
+    }
+  }
+  std::vector<double> medians;
+  for (const std::vector<double>& each : seconds) medians.push_back(median(each));
+  return medians;
+}
+
+MarkdownTable::MarkdownTable(const std::vector<std::string>& header) {
+  add(header);
+  add(std::vector<std::string>(header.size(), "---"));
+}
+
+void MarkdownTable::add(const std::vector<std::string>& row) {
+  text_ += "|";
+  for (const std::string& cell : row) text_ += " " + cell + " |";
+  text_ += "\n";
+}
+
+std::string number(double value, int digits) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return text;
+}
+
+std::string machine() {
+  std::ifstream cpu("/proc/cpuinfo");
+  std::string model = "an unknown processor";
+  for (std::string line; std::getline(cpu, line);) {
+    if (line.rfind("model name", 0) != 0) continue;
+    model = line.substr(line.find(':') + 2);
+    break;
+  }
+  const std::size_t bytes = std::size_t{1} << 28;
+  Buffer<char> from(bytes, 1);
+  Buffer<char> to(bytes, 2);
+  const auto copy = [&] {
+    parallel_for(
+        static_cast<std::ptrdiff_t>(bytes),
+        [&](std::ptrdiff_t begin, std::ptrdiff_t end) { std::memcpy(&to[begin], &from[begin], end - begin); }, 1 << 22);
+  };
+  const double both =
+      median({seconds_of(copy), seconds_of(copy), seconds_of(copy), seconds_of(copy), seconds_of(copy)});
+  const ThreadLimit limit(1);
+  const double one = median({seconds_of(copy), seconds_of(copy), seconds_of(copy), seconds_of(copy), seconds_of(copy)});
+  std::ostringstream text;
+  text << "Machine: " << model << ", " << __VERSION__ << ", copy (read and write counted) "
+       << number(2e-9 * bytes / one) << " GB/s on one thread, " << number(2e-9 * bytes / both) << " on all.\n";
+  return text.str();
+}
+
+}  // namespace batten::bench

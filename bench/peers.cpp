@@ -1,0 +1,163 @@
+/// The tessellator against other libraries on the same work, in turn, in one run. Writes docs/peers.md.
+#include "bench/peers.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+
+#include "batten/io/io.h"
+#include "batten/limit/tessellator.h"
+#include "batten/parallel/parallel.h"
+#include "batten/refine/refinement.h"
+#include "bench/bench.h"
+
+namespace batten::bench {
+
+namespace {
+
+constexpr int kRounds = 7;
+
+struct Case {
+  std::string model;
+  int refined;  ///< steps before, to make a fine control mesh
+  int levels;
+};
+
+Mesh load(const Case& which) {
+  const char* data = std::getenv("BATTEN_DATA");
+  Mesh mesh = read_mesh(std::string(data) + "/meshes/" + which.model + ".obj");
+  mesh.attributes.clear();
+  if (which.refined == 0) return mesh;
+  const Topology topology(mesh);
+  const RefinedSurface fine = refine(topology, choose_scheme(mesh), mesh.points, which.refined);
+  Mesh refined = mesh_from_topology(fine.topology);
+  refined.points = fine.values;
+  return refined;
+}
+
+/// Everything in memory that stays between calls.
+struct Reused {
+  Topology topology;
+  Tessellator tessellator;
+  Buffer<float> points;
+  Buffer<float> normals;
+  Buffer<Index> faces;
+
+  Reused(const Mesh& mesh, const Scheme& scheme, int levels)
+      : topology(mesh),
+        tessellator(topology, scheme, levels),
+        points(3 * static_cast<std::size_t>(tessellator.vertex_count()), 0.0F),
+        normals(points.size(), 0.0F),
+        faces(static_cast<std::size_t>(tessellator.face_count()) * static_cast<std::size_t>(tessellator.face_size()),
+              0) {}
+
+  void set_all() {
+    const auto zero = [](auto& buffer) {
+      parallel_for(
+          static_cast<std::ptrdiff_t>(buffer.size()),
+          [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+            std::memset(&buffer[begin], 0, sizeof(buffer[0]) * static_cast<std::size_t>(end - begin));
+          },
+          std::ptrdiff_t{1} << 18);
+    };
+    zero(points);
+    zero(faces);
+  }
+};
+
+std::string milliseconds(double seconds) { return number(1e3 * seconds, 3); }
+
+/// From an index list in fresh memory; ours first, then each peer with how many times longer it takes.
+void add_fresh(MarkdownTable& table, const Case& which) {
+  const Mesh mesh = load(which);
+  const Scheme scheme = choose_scheme(mesh);
+  const bool tagged = !mesh.creases.empty() || !mesh.corners.empty();
+  std::size_t faces = 0;
+  std::vector<PeerWork> works{{"Batten", [&] {
+                                 const Topology topology(mesh);
+                                 const auto result = tessellate<float>(topology, scheme, mesh.points, which.levels);
+                                 faces = result.faces.size() / static_cast<std::size_t>(result.face_size);
+                               }}};
+  works.push_back(opensubdiv_refine(mesh, scheme, which.levels));
+  if (!tagged) {
+    for (const auto& peers : {openmesh_refine(mesh, scheme, which.levels), cgal_refine(mesh, scheme, which.levels)}) {
+      works.insert(works.end(), peers.begin(), peers.end());
+    }
+  }
+  std::vector<std::function<void()>> calls;
+  for (const PeerWork& each : works) calls.push_back(each.work);
+  const std::vector<double> seconds = in_turn(calls, kRounds);
+  std::string others;
+  for (std::size_t i = 1; i < works.size(); ++i) {
+    others += (i > 1 ? ", " : "") + works[i].name + " " + milliseconds(seconds[i]) + " (" +
+              number(seconds[i] / seconds[0], 3) + "x)";
+  }
+  table.add({which.model + (which.refined > 0 ? ", refined " + std::to_string(which.refined) + "x" : ""),
+             std::string(scheme.kind == SchemeKind::Loop ? "Loop" : "Catmull-Clark") + (tagged ? ", creases" : ""),
+             std::to_string(mesh.face_count()), std::to_string(which.levels), number(1e-6 * static_cast<double>(faces)),
+             milliseconds(seconds[0]), others});
+}
+
+/// Into memory that is there already, connectivity kept.
+void add_reused(MarkdownTable& table, const Case& which) {
+  const Mesh mesh = load(which);
+  const Scheme scheme = choose_scheme(mesh);
+  Reused reused(mesh, scheme, which.levels);
+  std::vector<PeerWork> works{
+      {"points", [&] { reused.tessellator.refined<float>(mesh.points, reused.points); }},
+      {"faces", [&] { reused.tessellator.faces(reused.faces); }},
+      {"limit", [&] { reused.tessellator.limit<float>(mesh.points, reused.points); }},
+      {"normals", [&] { reused.tessellator.limit<float>(mesh.points, reused.points, reused.normals); }},
+      {"memset", [&] { reused.set_all(); }}};
+  for (PeerWork& peer : opensubdiv_points(mesh, scheme, which.levels)) works.push_back(std::move(peer));
+  std::vector<std::function<void()>> calls;
+  for (const PeerWork& each : works) calls.push_back(each.work);
+  const std::vector<double> s = in_turn(calls, kRounds);
+  const double vertices = reused.tessellator.vertex_count();
+  const auto per_vertex = [&](double seconds) { return number(1e9 * seconds / vertices, 3); };
+  table.add({which.model, std::to_string(which.levels), per_vertex(s[0]), number((s[0] + s[1]) / s[4], 3),
+             number((s[3] + s[1]) / (s[0] + s[1]), 3), per_vertex(s[5]) + " (" + number(s[5] / s[0], 3) + "x)",
+             per_vertex(s[6]) + " (" + number(s[6] / s[0], 3) + "x)"});
+}
+
+}  // namespace
+
+std::string peers_section() {
+  MarkdownTable fresh({"mesh", "scheme", "faces", "levels", "million faces out", "Batten, ms", "others, ms"});
+  for (const Case& which : {Case{"spot-quads", 0, 5}, Case{"armorguy", 0, 4}, Case{"t-rex", 0, 4}, Case{"beast", 0, 3},
+                            Case{"beast", 2, 1}, Case{"spot", 0, 4}}) {
+    add_fresh(fresh, which);
+  }
+  MarkdownTable reused({"mesh", "levels", "points, ns a vertex", "points and faces, of a memset",
+                        "with limits and normals, of without", "OpenSubdiv PrimvarRefiner, ns a vertex",
+                        "OpenSubdiv cascaded stencils, ns a vertex"});
+  for (const Case& which :
+       {Case{"spot-quads", 0, 5}, Case{"armorguy", 0, 4}, Case{"beast", 0, 3}, Case{"spot", 0, 4}}) {
+    add_reused(reused, which);
+  }
+  return "From an index list in memory to refined points in floats and faces in fresh memory. OpenSubdiv: create, "
+         "refine, "
+         "interpolate;\none thread, since none of its refinement is threaded.\n\n" +
+         fresh.text() +
+         "\nInto memory that is there already, connectivity kept. OpenSubdiv's stencils as Debian builds them, on one "
+         "thread,\nfour floats a point.\n\n" +
+         reused.text();
+}
+
+}  // namespace batten::bench
+
+int main(int argc, char** argv) {
+  using namespace batten::bench;
+  if (std::getenv("BATTEN_DATA") == nullptr) {
+    std::fprintf(stderr, "set BATTEN_DATA to the folder of the test data, whose meshes these figures are about\n");
+    return 1;
+  }
+  const std::string tunables = std::getenv("GLIBC_TUNABLES") == nullptr ? "" : std::getenv("GLIBC_TUNABLES");
+  const std::string page = (tunables.find("hugetlb=1") != std::string::npos
+                                ? "## With huge pages for everyone (GLIBC_TUNABLES=glibc.malloc.hugetlb=1)\n\n"
+                                : "## As everyone comes\n\n") +
+                           machine() + "\n" + peers_section() + "\n";
+  std::printf("%s", page.c_str());
+  if (argc > 1) std::ofstream(argv[1], std::ios::app) << page;
+}

@@ -1,0 +1,27 @@
+/// \file The same refinement by other libraries: from index lists in memory to refined points and connectivity.
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "batten/mesh/mesh.h"
+#include "batten/scheme/scheme.h"
+
+namespace batten::bench {
+
+struct PeerWork {
+  std::string name;
+  std::function<void()> work;
+};
+
+/// Create, refine uniformly, interpolate in floats.
+PeerWork opensubdiv_refine(const Mesh& mesh, const Scheme& scheme, int levels);
+
+/// Points again with connectivity kept: its PrimvarRefiner, and cascaded stencils on four floats a point.
+std::vector<PeerWork> opensubdiv_points(const Mesh& mesh, const Scheme& scheme, int levels);
+
+/// Empty where the library was not there at build time. Catmull-Clark without tags, or Loop.
+std::vector<PeerWork> openmesh_refine(const Mesh& mesh, const Scheme& scheme, int levels);
+std::vector<PeerWork> cgal_refine(const Mesh& mesh, const Scheme& scheme, int levels);
+
+}  // namespace batten::bench
