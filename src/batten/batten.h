@@ -4,6 +4,7 @@
 #include "batten/interpolate/interpolator.h"
 #include "batten/io/io.h"
 #include "batten/limit/limit_matrix.h"
+#include "batten/limit/limit_surface.h"
 #include "batten/limit/tessellator.h"
 #include "batten/mesh/check.h"
 #include "batten/mesh/mesh.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "batten/limit/ring_limit.h"
+#include "batten/limit/vertex_limit.h"
 
 namespace batten {
 
@@ -54,30 +54,6 @@ void scale_to_one(Scalar* control, const Index* rows, int count, int columns) {
   if (most < std::numeric_limits<Scalar>::min()) return;
   const Scalar scale = Scalar(1) / most;
   for (int i = 0; i < count * columns; ++i) control[i] *= scale;
-}
-
-/// Position or tangent of the limit at the origin of a half-edge, on that half-edge's side, as weights of vertices.
-template <typename Visit>
-void visit_limit(const Topology& topology, const Scheme& scheme, TileValue value, Index half_edge, const Visit& visit) {
-  const Index v = topology.origin(half_edge);
-  VertexRing ring;
-  const RingRules rules = ring_rules(topology, scheme, 0.0, v, ring);
-  RingMask mask;
-  if (value == TileValue::Limit) {
-    mask = limit_position_mask(rules, LimitMasks::Exact);
-  } else {
-    const auto place = std::find(ring.corners.begin(), ring.corners.end(), half_edge) - ring.corners.begin();
-    for (const RingSector& sector : limit_sectors(rules, LimitMasks::Exact)) {
-      const auto faces = static_cast<std::ptrdiff_t>(ring.corners.size());
-      if ((place - sector.first_face + faces) % faces >= sector.face_count) continue;
-      mask = value == TileValue::TangentU ? sector.tangents.first : sector.tangents.second;
-    }
-  }
-  visit(v, mask.vertex);
-  for (std::size_t i = 0; i < mask.edges.size(); ++i) visit(ring.neighbours[i], mask.edges[i]);
-  for (std::size_t i = 0; i < mask.faces.size(); ++i) {
-    visit(topology.origin(topology.next(topology.next(ring.corners[i]))), mask.faces[i]);
-  }
 }
 
 }  // namespace
@@ -195,8 +171,8 @@ void GridFiller<Scalar>::fill_cell(const Piece& piece, PieceGrid<Scalar>& grid) 
       for (int c = 0; c < grid.columns; ++c) grid.plane(c)[place] = static_cast<Scalar>(values(rows[corner], c));
     } else {
       Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(grid.columns);
-      visit_limit(topology, pieces_.scheme(), tables_.value(), half_edge,
-                  [&](Index vertex, double weight) { sum += weight * values.row(vertex); });
+      visit_vertex_limit(topology, pieces_.scheme(), tables_.value(), half_edge,
+                         [&](Index vertex, double weight) { sum += weight * values.row(vertex); });
       for (int c = 0; c < grid.columns; ++c) grid.plane(c)[place] = static_cast<Scalar>(sum[c]);
     }
     half_edge = topology.next(half_edge);

@@ -19,10 +19,6 @@ namespace {
 
 constexpr std::ptrdiff_t kPointsPerBlock = 16384;
 
-bool needs_first_step(const Topology& topology, const Scheme& scheme) {
-  return scheme.kind == SchemeKind::CatmullClark && (topology.uniform_face_size() != 4 || scheme.alpha > 0.0);
-}
-
 }  // namespace
 
 template <typename Scalar>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <unordered_map>
 
 #include "batten/refine/vertex_blend.h"
 
@@ -9,35 +10,60 @@ namespace batten {
 
 namespace {
 
-void append(std::string& key, float number) {
-  char bytes[sizeof(float)];
-  std::memcpy(bytes, &number, sizeof(float));
-  key.append(bytes, sizeof(float));
+template <typename Number>
+void append(std::string& key, Number number) {
+  char bytes[sizeof(Number)];
+  std::memcpy(bytes, &number, sizeof(Number));
+  key.append(bytes, sizeof(Number));
 }
+
+/// Old numbers to new ones, -1 where there is none: a table, or a hash where few of many are asked for.
+class Renumbering {
+ public:
+  Renumbering(Index all, std::size_t few) : dense_(few > static_cast<std::size_t>(all) / 64) {
+    if (dense_) table_.assign(static_cast<std::size_t>(all), -1);
+  }
+  Index operator[](Index old) const {
+    if (dense_) return table_[old];
+    const auto place = hash_.find(old);
+    return place == hash_.end() ? -1 : place->second;
+  }
+  void set(Index old, Index now) {
+    if (dense_) {
+      table_[old] = now;
+    } else {
+      hash_[old] = now;
+    }
+  }
+
+ private:
+  bool dense_;
+  Buffer<Index> table_;
+  std::unordered_map<Index, Index> hash_;
+};
 
 }  // namespace
 
-bool FaceRing::add_face(const Topology& topology, Index half_edge) {
+void FaceRing::add_face(const Topology& topology, Index half_edge) {
   const Index face = topology.face(half_edge);
-  if (std::find(faces_.begin(), faces_.end(), face) != faces_.end()) return true;
+  if (std::find(faces_.begin(), faces_.end(), face) != faces_.end()) return;
   faces_.push_back(face);
   starts_.push_back(half_edge);
   Index h = half_edge;
   for (Index c = 0; c < topology.face_size(face); ++c, h = topology.next(h)) {
     const Index v = topology.origin(h);
     const auto place = std::find(vertices_.begin(), vertices_.end(), v);
-    key_.push_back(static_cast<char>(place - vertices_.begin()));
+    append(key_, static_cast<std::int16_t>(place - vertices_.begin()));
     if (place == vertices_.end()) vertices_.push_back(v);
   }
-  return vertices_.size() <= kMostVertices;
 }
 
-bool FaceRing::gather(const Topology& topology, const Scheme& scheme, Index half_edge) {
+bool FaceRing::gather(const Topology& topology, const Scheme& scheme, Index half_edge, std::size_t most) {
   vertices_.clear();
   starts_.clear();
   faces_.clear();
   key_.clear();
-  if (!add_face(topology, half_edge)) return false;
+  add_face(topology, half_edge);
   const Index size = topology.face_size(topology.face(half_edge));
   Index side = half_edge;
   for (Index c = 0; c < size; ++c, side = topology.next(side)) {
@@ -49,14 +75,16 @@ bool FaceRing::gather(const Topology& topology, const Scheme& scheme, Index half
       append(key_, topology.edge_sharpness(topology.edge(p)));
       h = topology.twin(p);
       if (h < 0 || h == side) break;
-      if (!add_face(topology, h)) return false;
+      add_face(topology, h);
+      if (vertices_.size() > most) return false;
     }
     key_.push_back(h == side ? 'c' : 'o');
     if (h == side) continue;
     for (Index t = topology.twin(side); t >= 0;) {  // then clockwise
       h = topology.next(t);
       append(key_, topology.edge_sharpness(topology.edge(h)));
-      if (!add_face(topology, h)) return false;
+      add_face(topology, h);
+      if (vertices_.size() > most) return false;
       t = topology.twin(h);
     }
     key_.push_back('.');
@@ -70,7 +98,7 @@ Cutting cut_out(const Topology& from, const Buffer<Index>& half_edges) {
   const Index corners = from.face_size(from.face(half_edges.front()));
   tables.uniform_face_size = corners;
   const std::size_t count = half_edges.size() * static_cast<std::size_t>(corners);
-  Buffer<Index> new_half_edge(static_cast<std::size_t>(from.half_edge_count()), -1);
+  Renumbering new_half_edge(from.half_edge_count(), count);
   tables.face_offsets.resize(half_edges.size() + 1);
   tables.origins.resize(count);
   tables.twins.resize(count);
@@ -79,17 +107,18 @@ Cutting cut_out(const Topology& from, const Buffer<Index>& half_edges) {
   for (std::size_t f = 0; f < half_edges.size(); ++f) {
     tables.face_offsets[f] = static_cast<Index>(f) * corners;
     Index old = half_edges[f];
-    for (Index c = 0; c < corners; ++c, old = from.next(old)) new_half_edge[old] = static_cast<Index>(f) * corners + c;
+    for (Index c = 0; c < corners; ++c, old = from.next(old))
+      new_half_edge.set(old, static_cast<Index>(f) * corners + c);
   }
   tables.face_offsets[half_edges.size()] = static_cast<Index>(count);
-  Buffer<Index> new_vertex(static_cast<std::size_t>(from.vertex_count()), -1);
+  Renumbering new_vertex(from.vertex_count(), count);
   for (std::size_t f = 0; f < half_edges.size(); ++f) {
     Index old = half_edges[f];
     for (Index c = 0; c < corners; ++c, old = from.next(old)) {
       const Index h = static_cast<Index>(f) * corners + c;
       const Index v = from.origin(old);
       if (new_vertex[v] < 0) {
-        new_vertex[v] = static_cast<Index>(rows.size());
+        new_vertex.set(v, static_cast<Index>(rows.size()));
         rows.push_back(v);
         // The fan's own start where it is here; otherwise the vertex lies on the cut, and any half-edge does.
         const Index start = new_half_edge[from.vertex_half_edge(v)];

@@ -11,11 +11,10 @@ namespace batten {
 /// Lists the one-ring of a face, from one of its half-edges on, in an order that depends on the surroundings alone.
 class FaceRing {
  public:
-  /// Beyond so many vertices two faces are not compared; rare, and tables for them would be large.
-  static constexpr std::size_t kMostVertices = 64;
+  static constexpr std::size_t kAnyNumber = static_cast<std::size_t>(-1);
 
-  /// False where the ring has more than kMostVertices.
-  bool gather(const Topology& topology, const Scheme& scheme, Index half_edge);
+  /// False where the ring has more than `most` vertices.
+  bool gather(const Topology& topology, const Scheme& scheme, Index half_edge, std::size_t most = kAnyNumber);
 
   const Buffer<Index>& vertices() const { return vertices_; }  ///< the face's own first, from the half-edge's origin on
   const Buffer<Index>& half_edges() const {
@@ -26,7 +25,7 @@ class FaceRing {
   const std::string& key() const { return key_; }
 
  private:
-  bool add_face(const Topology& topology, Index half_edge);
+  void add_face(const Topology& topology, Index half_edge);
 
   Buffer<Index> vertices_;
   Buffer<Index> starts_;
@@ -40,7 +39,8 @@ struct Cutting {
   Buffer<Index> rows;  ///< the vertex that each of its vertices was
 };
 
-/// The faces of the given half-edges, in this order, each from its half-edge on. O(size of `from`).
+/// The faces of the given half-edges, in this order, each from its half-edge on. O(what is
+/// cut), or O(size of `from`) where that is no more than 64 times as much.
 Cutting cut_out(const Topology& from, const Buffer<Index>& half_edges);
 
 }  // namespace batten

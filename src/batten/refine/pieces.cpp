@@ -16,6 +16,8 @@ constexpr int kTriangleTurns[6][2] = {{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1},
 
 /// A configuration's table costs about as much as refining so many faces.
 constexpr std::size_t kFewestSharing = 16;
+/// Tables for larger rings would take more memory than they save time.
+constexpr std::size_t kMostRingVertices = 64;
 
 /// First half-edges of the faces, then of those that share a vertex with one of them.
 Buffer<Index> with_one_ring(const Topology& topology, const Buffer<Index>& faces) {
@@ -39,14 +41,15 @@ Buffer<Index> with_one_ring(const Topology& topology, const Buffer<Index>& faces
 
 }  // namespace
 
-Pieces::Pieces(const Topology& base, const Scheme& scheme, int levels) : base_(base), scheme_(scheme), levels_(levels) {
+Pieces::Pieces(const Topology& base, const Scheme& scheme, int levels, Rest rest)
+    : base_(base), scheme_(scheme), levels_(levels), rest_(rest) {
   Buffer<Index> faces(static_cast<std::size_t>(base.face_count()));
   std::iota(faces.begin(), faces.end(), 0);
   build(std::move(faces), true);
 }
 
 Pieces::Pieces(const Topology& base, const Scheme& scheme, int levels, Index face)
-    : base_(base), scheme_(scheme), levels_(levels) {
+    : base_(base), scheme_(scheme), levels_(levels), rest_(Rest::Cells) {
   build({face}, false);
 }
 
@@ -101,9 +104,10 @@ Index Pieces::aligned_corner(const Site& site, Index size, Piece& piece) const {
 Buffer<std::uint8_t> Pieces::take(int level, const Buffer<Index>& faces, const std::vector<Site>& sites, bool share) {
   const Topology& from = topology(level);
   const bool last = level == levels_;
+  const bool cells = last && rest_ == Rest::Cells;
   const Index corners = scheme_.kind == SchemeKind::Loop ? 3 : 4;
   const std::size_t patch_size = scheme_.kind == SchemeKind::Loop ? kTrianglePatchSize : 16;
-  const std::size_t row_count = last ? static_cast<std::size_t>(corners) : patch_size;
+  const std::size_t row_count = cells ? static_cast<std::size_t>(corners) : patch_size;
   const std::size_t first_row = rows_.size();
   rows_.resize(first_row + row_count * faces.size());
   const PatchFinder finder(from, scheme_);
@@ -121,7 +125,7 @@ Buffer<std::uint8_t> Pieces::take(int level, const Buffer<Index>& faces, const s
       piece.first_row = first_row + row_count * static_cast<std::size_t>(i);
       Index* rows = rows_.data() + piece.first_row;
       taken[i] = 1;
-      if (last) {
+      if (cells) {
         piece.kind = Piece::Kind::Cell;
         for (Index c = 0; c < corners; ++c) rows[c] = from.origin(first + (corner + c) % corners);
       } else if (finder.find(piece.half_edge, patch)) {
@@ -133,7 +137,7 @@ Buffer<std::uint8_t> Pieces::take(int level, const Buffer<Index>& faces, const s
       }
     }
   });
-  if (share) share_configurations(from, found, taken);
+  if (share) share_configurations(from, last && !cells ? 1 : kFewestSharing, found, taken);
   append_taken(found, taken);
   return taken;
 }
@@ -156,7 +160,8 @@ void Pieces::append_taken(const Buffer<Piece>& found, const Buffer<std::uint8_t>
 }
 
 /// Takes the irregular faces whose surroundings occur often enough.
-void Pieces::share_configurations(const Topology& topology, Buffer<Piece>& found, Buffer<std::uint8_t>& taken) {
+void Pieces::share_configurations(const Topology& topology, std::size_t fewest, Buffer<Piece>& found,
+                                  Buffer<std::uint8_t>& taken) {
   Buffer<std::size_t> irregular;
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (taken[i] == 0) irregular.push_back(i);
@@ -183,7 +188,9 @@ void Pieces::share_configurations(const Topology& topology, Buffer<Piece>& found
         Block& block = blocks[begin / kBlock];
         for (std::ptrdiff_t i = begin; i < end; ++i) {
           candidates[i] = {block.keys.size(), block.rows.size(), 0, 0};
-          if (!ring.gather(topology, scheme_, found[irregular[i]].half_edge)) continue;
+          if (!ring.gather(topology, scheme_, found[irregular[i]].half_edge,
+                           fewest > 1 ? kMostRingVertices : FaceRing::kAnyNumber))
+            continue;
           candidates[i].key_size = ring.key().size();
           candidates[i].row_count = ring.vertices().size();
           block.keys += ring.key();
@@ -207,7 +214,7 @@ void Pieces::share_configurations(const Topology& topology, Buffer<Piece>& found
   }
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     Group* group = group_of[i];
-    if (group == nullptr || group->count < kFewestSharing) continue;
+    if (group == nullptr || group->count < fewest) continue;
     Piece& piece = found[irregular[i]];
     if (group->configuration < 0) {
       group->configuration = static_cast<std::int32_t>(configurations_.size());
@@ -256,6 +263,10 @@ void Pieces::sort_pieces() {
   Buffer<Piece> sorted(pieces_.size());
   for (const Piece& piece : pieces_) sorted[next[piece.face]++] = piece;
   pieces_ = std::move(sorted);
+}
+
+bool needs_first_step(const Topology& topology, const Scheme& scheme) {
+  return scheme.kind == SchemeKind::CatmullClark && (topology.uniform_face_size() != 4 || scheme.alpha > 0.0);
 }
 
 Values Pieces::refine(int level, ConstValuesRef before) const {

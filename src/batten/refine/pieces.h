@@ -20,7 +20,7 @@ namespace batten {
 struct Piece {
   enum class Kind : std::uint8_t {
     Patch,          ///< rows: a RegularPatch
-    Configuration,  ///< rows: the one-ring, as many as the configuration has
+    Configuration,  ///< rows: the one-ring, as many vertices as the configuration's topology has
     Cell            ///< one step wide; rows: the corners
   };
   Index face;
@@ -38,8 +38,14 @@ struct Piece {
 /// The pieces of faces, for a uniform grid of 2^levels steps a side. The base topology must outlive it.
 class Pieces {
  public:
+  /// What becomes of faces that are irregular at the last level.
+  enum class Rest {
+    Cells,  ///< every face of the last level is a cell
+    Rings   ///< configurations, even where nothing shares them
+  };
+
   /// Catmull-Clark: base faces are quads, and scheme.alpha is 0. O(H + pieces).
-  Pieces(const Topology& base, const Scheme& scheme, int levels);
+  Pieces(const Topology& base, const Scheme& scheme, int levels, Rest rest = Rest::Cells);
   /// Of one face only, without configurations.
   Pieces(const Topology& base, const Scheme& scheme, int levels, Index face);
 
@@ -81,7 +87,8 @@ class Pieces {
   void build(Buffer<Index> faces, bool share);
   Buffer<std::uint8_t> take(int level, const Buffer<Index>& faces, const std::vector<Site>& sites, bool share);
   void append_taken(const Buffer<Piece>& found, const Buffer<std::uint8_t>& taken);
-  void share_configurations(const Topology& topology, Buffer<Piece>& found, Buffer<std::uint8_t>& taken);
+  void share_configurations(const Topology& topology, std::size_t fewest, Buffer<Piece>& found,
+                            Buffer<std::uint8_t>& taken);
   std::vector<Site> child_sites(const std::vector<Site>& sites, Index size) const;
   Index aligned_corner(const Site& site, Index size, Piece& piece) const;
   void sort_pieces();
@@ -89,11 +96,15 @@ class Pieces {
   const Topology& base_;
   Scheme scheme_;
   int levels_;
+  Rest rest_;
   Buffer<std::size_t> first_piece_;
   Buffer<Piece> pieces_;
   Buffer<Index> rows_;
   std::vector<Configuration> configurations_;
   std::vector<std::unique_ptr<Region>> regions_;
 };
+
+/// True where pieces need the first refinement for a base: Catmull-Clark on other faces than quads, or with alpha.
+bool needs_first_step(const Topology& topology, const Scheme& scheme);
 
 }  // namespace batten

@@ -1,0 +1,20 @@
+/// \file Position and derivatives of regular patches: the uniform bicubic B-spline and Loop's quartic box spline.
+#pragma once
+#include <array>
+
+#include "batten/refine/regular_patch.h"
+
+namespace batten {
+
+/// Weights of a patch's control points for the value and the derivatives up to the second, in the patch's own (u, v).
+struct JetWeights {
+  std::array<double, 16> value, du, dv, duu, duv, dvv;
+};
+
+/// Sixteen weights, in the order of RegularPatch. (u, v) in the unit square.
+void quad_jet_weights(double u, double v, JetWeights& weights);
+
+/// Twelve weights, in the order of kTriangleLattice. u, v, 1 - u - v >= 0.
+void triangle_jet_weights(double u, double v, JetWeights& weights);
+
+}  // namespace batten
