@@ -75,13 +75,14 @@ struct SoupKind {
   int places;  ///< points are drawn from so many places, so that some coincide
   int trials;
 };
+void PrintTo(const SoupKind& kind, std::ostream* out) { *out << kind.name; }
 class RandomSoup : public ::testing::TestWithParam<SoupKind> {};
 INSTANTIATE_TEST_SUITE_P(Repair, RandomSoup,
-                         ::testing::Values(SoupKind{"Few", 6, 4, 3, 100, 5000}, SoupKind{"Dense", 7, 14, 3, 100, 5000},
-                                           SoupKind{"Polygons", 9, 10, 6, 100, 5000},
-                                           SoupKind{"Coincident", 12, 10, 3, 6, 5000},
-                                           SoupKind{"CoincidentPolygons", 14, 8, 5, 6, 5000},
-                                           SoupKind{"Unwelded", 60, 20, 3, 7, 3000},
+                         ::testing::Values(SoupKind{"Few", 6, 4, 3, 100, 2000}, SoupKind{"Dense", 7, 14, 3, 100, 2000},
+                                           SoupKind{"Polygons", 9, 10, 6, 100, 2000},
+                                           SoupKind{"Coincident", 12, 10, 3, 6, 2000},
+                                           SoupKind{"CoincidentPolygons", 14, 8, 5, 6, 2000},
+                                           SoupKind{"Unwelded", 60, 20, 3, 7, 1500},
                                            SoupKind{"Large", 40, 120, 4, 30, 300}),
                          [](const auto& tested) { return tested.param.name; });
 
