@@ -36,7 +36,7 @@ MethodResult run(const Contestant& contestant, const Topology& topology, const S
   result.name = contestant.name;
   try {
     auto start = std::chrono::steady_clock::now();
-    const Interpolator interpolator(topology, scheme, options);
+    const Interpolator interpolator(topology, scheme, options, ProgressBar("building", quiet).callback());
     result.build_seconds = seconds_since(start);
     double spent = 0.0;
     for (int runs = 0; runs < kMostRuns && spent < kEnoughSeconds; ++runs) {

@@ -106,7 +106,7 @@ void describe_topology(const Topology& topology, Table& table, Json& json) {
 /// Takes the mesh as the control points of a surface and finds them again from the limit positions.
 void describe_interpolation(const Mesh& mesh, const Topology& topology, const Scheme& scheme, bool quiet, Table& table,
                             Json& json) {
-  const Interpolator interpolator(topology, scheme);
+  const Interpolator interpolator(topology, scheme, {}, ProgressBar("building", quiet).callback());
   const Values targets = interpolator.limit_matrix().apply(mesh.points);
   const Interpolant found = interpolator.solve(targets, ProgressBar("self-check", quiet).callback());
   const double diagonal = bounding_diagonal(targets);
@@ -211,10 +211,10 @@ int run_info(const CommonArguments& arguments) {
   Table table;
   Json json{{"verb", "info"}, {"input", arguments.input}, {"repairs", repairs}};
   describe_mesh(mesh, table, json);
-  const std::vector<MeshProblem> problems = check(mesh, 10);
+  const std::vector<MeshProblem> problems = check(mesh, 10, ProgressBar("checking", arguments.quiet).callback());
   describe_problems(problems, table, json);
   if (problems.empty()) {
-    const Topology topology(mesh);
+    const Topology topology(mesh, ProgressBar("connecting", arguments.quiet).callback());
     const Scheme scheme = choose_scheme(mesh);
     describe_topology(topology, table, json);
     table.add("surface", scheme_text(scheme));

@@ -5,6 +5,7 @@
 
 #include "batten/interpolate/interpolator.h"
 #include "batten/limit/limit_matrix.h"
+#include "batten/mesh/check.h"
 #include "batten/mesh/primitives.h"
 #include "batten/mesh/repair.h"
 #include "batten/parallel/parallel.h"
@@ -29,6 +30,7 @@ std::vector<Named> operations(const io_tests::TemporaryFolder& folder) {
   static const Interpolator interpolator(topology, scheme);
   std::vector<Named> all{
       {"topology", [](const Progress& progress) { Topology(mesh, progress); }},
+      {"check", [](const Progress& progress) { check(mesh, 1, progress); }},
       {"repair", [](const Progress& progress) { repair(mesh, {}, progress); }},
       {"refine", [](const Progress& progress) { refine(topology, scheme, mesh.points, 2, progress); }},
       {"limit matrix", [](const Progress& progress) { LimitMatrix(topology, scheme, {}, progress); }},

@@ -77,5 +77,10 @@ TEST(ObjErrors, AFileWithoutVerticesIsNoObj) {
   expect_error([] { parse(io::read_obj, "GIF89a \x01\x02\n"); }, ErrorCode::BadFile, "is this an OBJ file?");
 }
 
+TEST(ObjErrors, OfSeveralWrongTagsTheFirstIsNamed) {
+  const auto read = [] { parse(io::read_obj, "v 0 0 0\nt corner 1/1/0 7 1\nt crease 2/1/0 0 9 1\n"); };
+  expect_error(read, ErrorCode::IndexOutOfRange, "test:2: the tag names 7");
+}
+
 }  // namespace
 }  // namespace batten::io_tests

@@ -95,6 +95,10 @@ TEST(ObjReader, APolygonMayHaveAnySize) {
   }
 }
 
+TEST(ObjReader, AReturnInsideANameIsABlank) {
+  EXPECT_EQ(obj("g a\rb\r\n" + std::string(kTriangle)).groups.at(0).name, "a b");
+}
+
 TEST(ObjReader, GroupsAndMaterialsAreKept) {
   const Mesh mesh = obj("mtllib my materials.mtl\n" + std::string(kTriangle) +
                         "o thing\ng left arm\nusemtl red\ns off\nf 1 2 3\ng unused\ng right\nf 3 2 1\ns 1\n");

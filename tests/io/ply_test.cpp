@@ -225,5 +225,14 @@ TEST(PlyReader, TinyChunksChangeNothing) {
   for (const std::size_t chunk : {1U, 11U, 50U, 333U}) expect_same_mesh(ply(text), parse(io::read_ply, text, chunk));
 }
 
+TEST(PlyReader, AScalarCalledNormalIsNoNormal) {
+  const std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+      "property float normal\nend_header\n0 0 0 7\n";
+  const Mesh mesh = parse(io::read_ply, text);
+  EXPECT_EQ(mesh.attributes.at(0).name, "normal_");
+  expect_same_attributes(mesh, round_trip(mesh, "ply"));
+}
+
 }  // namespace
 }  // namespace batten::io_tests

@@ -71,6 +71,7 @@ TEST(StlReader, ErrorsNameTheLineOrTheTriangle) {
   expect_error(broken("vertex 1 1e0 0", "vertex 1 inf 0"), ErrorCode::NotFinite, "test:12: 'inf'");
   expect_error(broken("   vertex 1 1e0 0\n", ""), ErrorCode::BadFile,
                "test:13: a facet needs 3 vertices, this one has 2");
+  expect_error(broken("endloop", "solid"), ErrorCode::BadFile, "the vertices before 'solid' lack an endloop");
   expect_error(broken("endfacet", "endfacets"), ErrorCode::BadFile, "test:8: 'endfacets'");
   std::vector<float> coordinates = kTwoTriangles;
   coordinates[13] = std::nanf("");

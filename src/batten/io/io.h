@@ -12,8 +12,8 @@
 ///        `smoothtriangles`, whose indices count from 0. All else is skipped. A group without a face is not kept.
 ///   PLY  text and both byte orders, any types. nx ny nz are "normal"; red green blue [alpha] "color" (bytes become
 ///   k/255);
-///        s t, u v, texture_u texture_v "uv"; other scalars of the vertices one attribute each. Other elements are
-///        skipped.
+///        s t, u v, texture_u texture_v "uv"; other scalars of the vertices one attribute each ("uv_" of a scalar uv).
+///        Other elements are skipped.
 ///   OFF  with normals (N), colours (C) and texture coordinates (ST) of the vertices; no binary OFF, no other
 ///   dimensions. STL  text and bytes (told apart by the size of the file); equal coordinates become one vertex, in
 ///   order of appearance. XYZ  points: 3 columns, or 6 with "normal"; columns of another number are "extra". Blanks or

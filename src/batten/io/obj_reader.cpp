@@ -125,12 +125,22 @@ void append(std::vector<T>& all, std::vector<T>& part) {
   std::move(part.begin(), part.end(), std::back_inserter(all));
 }
 
-void require_element(Index element, Index count, const char* elements, const char* where) {
-  if (element < count) return;
-  throw Fault{where, ErrorCode::IndexOutOfRange,
-              "the tag names " + std::to_string(element) + ", but there are " + std::to_string(count) + " " + elements +
-                  ", counted from 0"};
-}
+/// The first line whose tag names what does not exist, whatever the order in which the tags are looked at.
+class TagCheck {
+ public:
+  void require(Index element, Index count, const char* elements, const char* where) {
+    if (element < count || (first_ && first_->where <= where)) return;
+    first_ = Fault{where, ErrorCode::IndexOutOfRange,
+                   "the tag names " + std::to_string(element) + ", but there are " + std::to_string(count) + " " +
+                       elements + ", counted from 0"};
+  }
+  void finish() const {
+    if (first_) throw Fault(*first_);
+  }
+
+ private:
+  std::optional<Fault> first_;
+};
 
 /// The later word on the surface counts.
 template <typename T>
@@ -140,18 +150,19 @@ void keep_last(std::optional<T>& kept, const std::optional<T>& later) {
 
 void join_tags(Pieces& pieces, const std::vector<Index>& first_face, Mesh& mesh) {
   const Index vertices = mesh.vertex_count();
+  TagCheck check;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     ObjPiece& piece = pieces[i];
     for (const Tagged<Crease>& crease : piece.creases) {
-      require_element(std::max(crease.value.a, crease.value.b), vertices, "vertices", crease.where);
+      check.require(std::max(crease.value.a, crease.value.b), vertices, "vertices", crease.where);
       mesh.creases.push_back(crease.value);
     }
     for (const Tagged<Corner>& corner : piece.corners) {
-      require_element(corner.value.vertex, vertices, "vertices", corner.where);
+      check.require(corner.value.vertex, vertices, "vertices", corner.where);
       mesh.corners.push_back(corner.value);
     }
     for (const Tagged<Index>& hole : piece.holes) {
-      require_element(hole.value, first_face.back(), "faces", hole.where);
+      check.require(hole.value, first_face.back(), "faces", hole.where);
       mesh.holes.push_back(hole.value);
     }
     for (Group& group : piece.groups) {
@@ -163,6 +174,7 @@ void join_tags(Pieces& pieces, const std::vector<Index>& first_face, Mesh& mesh)
     keep_last(mesh.crease_method, piece.crease_method);
     keep_last(mesh.triangle_rule, piece.triangle_rule);
   }
+  check.finish();
 }
 
 void join_obj_faces(const Source& source, Pieces& pieces, Mesh& mesh) {

@@ -117,7 +117,10 @@ void allocate_ply_vertices(PlyTargets& targets, Mesh& mesh) {
   }
   for (std::size_t p = 0; p < element.properties.size(); ++p) {
     if (taken[p] || element.properties[p].is_list()) continue;
-    mesh.attributes.push_back({element.properties[p].name, Values(rows, 1), {}});
+    // A lone scalar of that name is no normal, and no writer would take it for one.
+    const std::string& name = element.properties[p].name;
+    const bool reserved = name == "normal" || name == "color" || name == "uv";
+    mesh.attributes.push_back({reserved ? name + "_" : name, Values(rows, 1), {}});
     place(static_cast<std::ptrdiff_t>(p), mesh.attributes.back().values.data(), 0, 1, 1.0);
   }
 }

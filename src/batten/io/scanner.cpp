@@ -22,7 +22,8 @@ std::string Scanner::rest_of_line() {
       continue;
     }
     first = false;
-    text.push_back(*here_);
+    // A name with a return inside could not be written again.
+    text.push_back(*here_ == '\r' ? ' ' : *here_);
   }
   while (!text.empty() && is_blank(text.back())) text.pop_back();
   return text;

@@ -149,6 +149,9 @@ class TextParser {
   }
 
   bool statement(const std::string& keyword) {
+    if (corners_ > 0 && keyword != "vertex" && keyword != "endloop") {
+      scanner_.fail(ErrorCode::BadFile, "the vertices before " + quoted(keyword) + " lack an endloop; add it");
+    }
     if (keyword == "vertex") {
       vertex();
     } else if (keyword == "outer") {

@@ -6,6 +6,7 @@
 
 #include "batten/mesh/repeated_faces.h"
 #include "batten/mesh/sides.h"
+#include "batten/progress.h"
 
 namespace batten {
 
@@ -201,15 +202,20 @@ void check_corners_and_holes(const Mesh& mesh, Findings& findings) {
 
 }  // namespace
 
-std::vector<MeshProblem> check(const Mesh& mesh, std::size_t limit) {
+std::vector<MeshProblem> check(const Mesh& mesh, std::size_t limit, const Progress& progress) {
   Findings findings(limit);
   if (!check_arrays(mesh, findings)) return findings.take();
   check_points(mesh, findings);
+  report_progress(progress, 0.1);
   const Buffer<std::uint8_t> wrong = check_faces(mesh, findings);
+  report_progress(progress, 0.2);
   check_repeated_faces(mesh, wrong, findings);
+  report_progress(progress, 0.4);
   const SideTable sides(mesh.face_offsets, mesh.face_vertices, wrong);
+  report_progress(progress, 0.6);
   check_edges(sides, findings);
   check_orientation(sides, findings);
+  report_progress(progress, 0.8);
   check_vertices(mesh, sides, findings);
   check_creases(mesh, sides, findings);
   check_corners_and_holes(mesh, findings);

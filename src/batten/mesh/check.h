@@ -17,6 +17,7 @@ struct MeshProblem {
 /// The problems of a mesh, kind by kind in the order of ErrorCode's causes (offsets, indices, numbers, faces, edges,
 /// vertices, tags), with the messages of at most `limit` a kind. Edges and vertices are looked at without the faces
 /// that are wrong in themselves. Empty exactly when Topology accepts the mesh. O(H log H): a second a million quads.
-std::vector<MeshProblem> check(const Mesh& mesh, std::size_t limit = 1);
+/// Throws Error(Cancelled): the callback is asked between the kinds.
+std::vector<MeshProblem> check(const Mesh& mesh, std::size_t limit = 1, const Progress& progress = {});
 
 }  // namespace batten

@@ -117,6 +117,7 @@ bool sort_spokes(SpokeTable& table, const Progress& progress) {
     for (std::ptrdiff_t v = begin; v < end; ++v) {
       Spoke* first = table.spokes.data() + table.offsets[v];
       Spoke* last = table.spokes.data() + table.offsets[v + 1];
+      if (last - first < 2) continue;
       if (last - first > 16) {
         std::sort(first, last);
       } else {
