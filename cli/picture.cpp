@@ -154,6 +154,7 @@ struct Shot {
 
 std::vector<Viewpoint> viewpoints_of(const std::vector<Shot>& shots, const RenderOptions& options, int around) {
   std::vector<const Scene*> scenes;
+  scenes.reserve(shots.size());
   for (const Shot& shot : shots) scenes.push_back(shot.scene);
   if (around > 0) return turntable(scenes, options, around);
   return {fit_viewpoint(scenes, options)};
