@@ -61,6 +61,7 @@ struct InterpolateArguments {
   InterpolateOptions options;
   std::string plot;  ///< residual against iteration
   bool compare_methods = false;
+  int levels = -1;  ///< -1: write the control mesh, or for GLB at most 3
 };
 
 struct SubdivideArguments {

@@ -162,6 +162,10 @@ Index isolated_count(const Topology& topology) {
   return static_cast<Index>(std::count(starts.begin(), starts.end(), -1));
 }
 
+std::string size_text(const Mesh& mesh) {
+  return count_of(mesh.vertex_count(), "vertex", "vertices") + ", " + count_of(mesh.face_count(), "face", "faces");
+}
+
 std::string mesh_text(const Topology& topology) {
   std::string text =
       count_of(topology.vertex_count(), "vertex", "vertices") + ", " + count_of(topology.face_count(), "face", "faces");

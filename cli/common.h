@@ -66,6 +66,8 @@ void write_json(const std::string& path, const nlohmann::ordered_json& json);
 /// "12,345"
 std::string grouped(std::int64_t number);
 std::string count_of(std::int64_t number, const std::string& singular, const std::string& plural);
+/// "8 vertices, 6 faces"
+std::string size_text(const Mesh& mesh);
 std::string mesh_text(const Topology& topology);
 std::string scheme_text(const Scheme& scheme);
 nlohmann::ordered_json scheme_json(const Scheme& scheme);

@@ -12,8 +12,7 @@ int run_convert(const CommonArguments& arguments) {
   write_output(arguments, mesh);
   stages.finish("write");
   Table table;
-  table.add("mesh",
-            count_of(mesh.vertex_count(), "vertex", "vertices") + ", " + count_of(mesh.face_count(), "face", "faces"));
+  table.add("mesh", size_text(mesh));
   table.add("time", stages.text());
   table.print(arguments);
   write_json(arguments.report, {{"verb", "convert"},

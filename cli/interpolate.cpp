@@ -1,6 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "batten/error.h"
+#include "batten/io/io.h"
+#include "batten/limit/surface_mesh.h"
 #include "batten/parallel/parallel.h"
 #include "cli/common.h"
 #include "cli/picture.h"
@@ -17,6 +21,7 @@ Mesh control_mesh(Mesh mesh, const Topology& topology, const Scheme& scheme, con
   Mesh control = same ? std::move(mesh) : mesh_from_topology(surface.topology);
   control.points = surface.values;
   // What the surface depends on is said in the file, so that another program makes the same one of it.
+  control.scheme = scheme.kind;
   control.boundary = scheme.boundary;
   if (topology.has_creases()) control.crease_method = scheme.crease_method;
   if (scheme.triangle_rule == TriangleRule::Smooth) control.triangle_rule = scheme.triangle_rule;
@@ -32,6 +37,24 @@ void interpolate_attributes(Mesh& mesh, const Interpolator& interpolator, bool q
     ProgressBar bar("interpolating " + attribute.name, quiet);
     attribute.values = interpolator.solve(attribute.values, bar.callback()).control;
   }
+}
+
+/// The control mesh, or where a refined surface was asked for, or the format holds nothing else, that surface.
+/// Returns what was written when it is not the control mesh.
+std::string write_result(const InterpolateArguments& arguments, const Mesh& control, const Scheme& scheme) {
+  const CommonArguments& common = arguments.common;
+  if (common.output.empty()) return {};
+  const bool surface = arguments.levels >= 0 || file_format(common.output, common.output_format) == "glb";
+  if (!surface) {
+    write_output(common, control);
+    return {};
+  }
+  const Topology topology(control, ProgressBar("connecting", common.quiet).callback());
+  const int levels = arguments.levels >= 0 ? arguments.levels : std::min(3, picture_levels(topology));
+  ProgressBar bar("refining", common.quiet);
+  const Mesh refined = surface_mesh(topology, scheme, control, levels, bar.callback());
+  write_output(common, refined);
+  return fmt::format("the limit surface refined to {}, {}", count_of(levels, "level", "levels"), size_text(refined));
 }
 
 void add_error_rows(Table& table, const Interpolant& result, double diagonal) {
@@ -135,7 +158,7 @@ int run_interpolate(const InterpolateArguments& arguments) {
   }
   stages.finish("solve");
   const Mesh control = control_mesh(std::move(mesh), topology, scheme, result, common.quiet);
-  write_output(common, control);
+  const std::string written = write_result(arguments, control, scheme.after_first_step());
   stages.finish("write");
   if (drawn) {
     draw(subject_of(given, control, scheme, arguments.picture), arguments.picture, common.quiet);
@@ -159,6 +182,7 @@ int run_interpolate(const InterpolateArguments& arguments) {
                                   count_of(result.report.iterations, "iteration", "iterations")));
   add_error_rows(table, result, diagonal);
   if (result.singular_components > 0) table.add("singular", singular_text(result, arguments.options.on_singular));
+  if (!written.empty()) table.add("written", written);
   table.add("time", stages.text());
   table.print(common);
   if (arguments.compare_methods) print_methods(methods, diagonal, common);

@@ -86,7 +86,7 @@ void add_output(CLI::App& verb, CommonArguments& common) {
   verb.add_option("-o,--output", common.output, "file to write; the type follows the extension, - is standard output")
       ->option_text("FILE");
   verb.add_option("--output-format", common.output_format, "the output's type where its name does not tell")
-      ->option_text("obj|ply|off|stl|xyz");
+      ->option_text("obj|ply|off|stl|xyz|glb|usda");
   verb.add_flag("--ascii", common.ascii, "PLY and STL as text");
 }
 
@@ -205,6 +205,10 @@ void add_interpolate(CLI::App& app, InterpolateArguments& arguments, int& status
   verb.add_option("--plot", arguments.plot, "plot the residual against the iteration")
       ->check(has_extension({".png", ".svg"}))
       ->option_text("FILE.png|.svg");
+  verb.add_option("--levels", arguments.levels,
+                  "write the limit surface refined so often, instead of the control mesh (.glb: always; 3 times "
+                  "if not given, fewer for a large mesh)")
+      ->check(CLI::Range(0, 12));
   verb.callback([&] { status = run_interpolate(arguments); });
 }
 

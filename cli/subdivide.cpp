@@ -1,7 +1,8 @@
 #include <fmt/format.h>
 
-#include "batten/limit/limit_matrix.h"
+#include "batten/limit/surface_mesh.h"
 #include "batten/parallel/parallel.h"
+#include "batten/refine/refined_mesh.h"
 #include "cli/common.h"
 #include "cli/picture.h"
 
@@ -15,27 +16,11 @@ int run_subdivide(const SubdivideArguments& arguments) {
   const Mesh mesh = read_input(common, &repairs);
   stages.finish("read");
   const Scheme scheme = scheme_for(common, mesh);
-  const Topology topology =
-      with_surface_holes(Topology(mesh, ProgressBar("connecting", common.quiet).callback()), scheme);
+  const Topology topology(mesh, ProgressBar("connecting", common.quiet).callback());
   stages.finish("topology");
   ProgressBar bar("refining", common.quiet);
-  RefinedSurface surface = refine(topology, scheme, mesh.points, arguments.levels, bar.callback());
-  const Scheme last = arguments.levels > 0 ? scheme.after_first_step() : scheme;
-  Mesh refined = mesh_from_topology(surface.topology);
-  refined.boundary = scheme.boundary;
-  if (surface.topology.has_creases()) refined.crease_method = scheme.crease_method;
-  for (const Attribute& attribute : mesh.attributes) {
-    if (attribute.per_corner() || attribute.name == "normal") continue;
-    refined.attributes.push_back(
-        {attribute.name, refine(topology, scheme, attribute.values, arguments.levels, bar.callback()).values, {}});
-  }
-  if (arguments.limit) {
-    refined.points = LimitMatrix(surface.topology, last, {}, bar.callback()).apply(surface.values, bar.callback());
-    const LimitNormals normals = limit_normals(surface.topology, last, surface.values, {}, bar.callback());
-    refined.attributes.push_back({"normal", normals.vertices, {}});
-  } else {
-    refined.points = surface.values;
-  }
+  const Mesh refined = arguments.limit ? surface_mesh(topology, scheme, mesh, arguments.levels, bar.callback())
+                                       : refine_mesh(topology, scheme, mesh, arguments.levels, bar.callback()).mesh;
   stages.finish("subdivide");
   write_output(common, refined);
   stages.finish("write");
@@ -52,8 +37,8 @@ int run_subdivide(const SubdivideArguments& arguments) {
   Table table;
   table.add("mesh", mesh_text(topology));
   table.add("scheme", scheme_text(scheme));
-  table.add("refined", fmt::format("{} to {}{}", count_of(arguments.levels, "level", "levels"),
-                                   mesh_text(surface.topology), arguments.limit ? ", on the limit surface" : ""));
+  table.add("refined", fmt::format("{} to {}{}", count_of(arguments.levels, "level", "levels"), size_text(refined),
+                                   arguments.limit ? ", on the limit surface" : ""));
   table.add("time", stages.text());
   table.print(common);
   write_json(common.report, {{"verb", "subdivide"},
@@ -63,8 +48,8 @@ int run_subdivide(const SubdivideArguments& arguments) {
                              {"levels", arguments.levels},
                              {"limit", arguments.limit},
                              {"scheme", scheme_json(scheme)},
-                             {"vertices", surface.topology.vertex_count()},
-                             {"faces", surface.topology.face_count()},
+                             {"vertices", refined.vertex_count()},
+                             {"faces", refined.face_count()},
                              {"seconds", stages.json()}});
   return 0;
 }

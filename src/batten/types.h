@@ -15,6 +15,8 @@ using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 using ConstValuesRef = const Eigen::Ref<const Values, 0, Eigen::OuterStride<>>&;
 using ValuesRef = Eigen::Ref<Values, 0, Eigen::OuterStride<>>;
 
+enum class SchemeKind { CatmullClark, Loop };
+
 /// What the surface does at a boundary (OpenSubdiv's names).
 enum class BoundaryRule {
   None,           ///< faces at the boundary are not part of the surface; they only shape it

@@ -308,6 +308,58 @@ TEST_F(Tool, ConvertsBetweenAllFormats) {
   EXPECT_EQ(read_mesh(path("c.obj")).points, read_mesh(kModels + "icosahedron.obj").points);
 }
 
+TEST_F(Tool, AGlbHoldsTheSurfaceItself) {
+  const Outcome result = run("interpolate " + kModels + "pipe-joint.obj -o new/surface.glb");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("the limit surface refined to 3 levels, "), std::string::npos) << result.out;
+  EXPECT_EQ(text_of(path("new/surface.glb")).substr(0, 4), "glTF");
+}
+
+TEST_F(Tool, ARefinedResultPassesThroughThePoints) {
+  ASSERT_EQ(run("interpolate " + kModels + "pipe-joint.obj -o surface.ply --levels 1").status, 0);
+  const Mesh input = read_mesh(kModels + "pipe-joint.obj");
+  const Mesh surface = read_mesh(path("surface.ply"));
+  EXPECT_EQ(surface.face_count(), 4 * input.face_count());
+  const Values miss = surface.points.topRows(input.vertex_count()) - input.points;
+  EXPECT_LE(miss.rowwise().norm().maxCoeff(), 1.01e-10 * bounding_diagonal(input.points));
+}
+
+TEST_F(Tool, UsdaNamesTheSchemeThatWasUsed) {
+  ASSERT_EQ(run("interpolate " + kModels + "icosahedron.obj -o a.usda").status, 0);
+  ASSERT_EQ(run("interpolate " + kModels + "icosahedron.obj --scheme catmull-clark -o b.usda").status, 0);
+  EXPECT_NE(text_of(path("a.usda")).find("subdivisionScheme = \"loop\""), std::string::npos);
+  EXPECT_NE(text_of(path("b.usda")).find("subdivisionScheme = \"catmullClark\""), std::string::npos);
+  ASSERT_EQ(run("subdivide " + kModels + "icosahedron.obj --limit -o c.usda").status, 0);
+  EXPECT_NE(text_of(path("c.usda")).find("subdivisionScheme = \"none\""), std::string::npos);
+}
+
+TEST_F(Tool, ColoursOfTheSurfaceAreThoseOfThePoints) {
+  Mesh mesh = read_mesh(kModels + "pipe-joint.obj");
+  mesh.attributes = {{"color", mesh.points.array().sin().abs(), {}}};
+  write_mesh(path("colours.ply"), mesh);
+  ASSERT_EQ(run("interpolate colours.ply -o control.ply").status, 0);
+  ASSERT_EQ(run("subdivide control.ply --levels 2 --limit -o surface.ply").status, 0);
+  const Mesh surface = read_mesh(path("surface.ply"));
+  const auto color = std::find_if(surface.attributes.begin(), surface.attributes.end(),
+                                  [](const Attribute& attribute) { return attribute.name == "color"; });
+  ASSERT_NE(color, surface.attributes.end());
+  const Values miss = color->values.topRows(mesh.vertex_count()) - mesh.attributes[0].values;
+  // The tolerance is one of the points' diagonal of about 9; colours are solved with the same one.
+  EXPECT_LE(miss.cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST_F(Tool, SubdivisionKeepsTextureAndMaterials) {
+  write("quad.obj",
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+        "f 1/1 2/2 3/3 4/4\nusemtl red\nf 2/1 5/2 6/3 3/4\n");
+  ASSERT_EQ(run("subdivide quad.obj --levels 1 -o fine.obj").status, 0);
+  const Mesh fine = read_mesh(path("fine.obj"));
+  ASSERT_EQ(fine.attributes.size(), 1U);
+  // Four corners, four edges on the one side and four on the other, two centres.
+  EXPECT_EQ(fine.attributes[0].values.rows(), 14);
+  EXPECT_EQ(fine.groups[0].first_face, 4);
+}
+
 TEST(Readme, ItsProgramIsTheExampleThatTheBuildCompiles) {
   const std::string program = text_of(BATTEN_SOURCE_DIR "/examples/interpolate.cpp");
   EXPECT_NE(text_of(BATTEN_SOURCE_DIR "/README.md").find("```cpp\n" + program + "```"), std::string::npos);

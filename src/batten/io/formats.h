@@ -20,5 +20,8 @@ void write_ply(OutputFile& file, const Mesh& mesh, Encoding encoding);
 void write_off(OutputFile& file, const Mesh& mesh);
 void write_stl(OutputFile& file, const Mesh& mesh, Encoding encoding);
 void write_xyz(OutputFile& file, const Mesh& mesh);
+/// In builds with tinygltf (BATTEN_WITH_GLTF).
+void write_glb(OutputFile& file, const Mesh& mesh);
+void write_usda(OutputFile& file, const Mesh& mesh);
 
 }  // namespace batten::io

@@ -14,9 +14,20 @@ namespace {
 
 struct Format {
   const char* extension;
+  /// Null where a format is only written.
   Mesh (*read)(const io::Source& source);
   void (*write)(io::OutputFile& file, const Mesh& mesh, io::Encoding encoding);
 };
+
+void write_glb(io::OutputFile& file, const Mesh& mesh, io::Encoding /*encoding*/) {
+#ifdef BATTEN_WITH_GLTF
+  io::write_glb(file, mesh);
+#else
+  (void)mesh;
+  throw Error(ErrorCode::NotAvailable,
+              file.name() + ": this build writes no GLB; configure with BATTEN_WITH_GLTF=ON, or write obj or usda");
+#endif
+}
 
 constexpr Format kFormats[] = {
     {"obj", io::read_obj, [](io::OutputFile& file, const Mesh& mesh, io::Encoding) { io::write_obj(file, mesh); }},
@@ -24,6 +35,8 @@ constexpr Format kFormats[] = {
     {"off", io::read_off, [](io::OutputFile& file, const Mesh& mesh, io::Encoding) { io::write_off(file, mesh); }},
     {"stl", io::read_stl, io::write_stl},
     {"xyz", io::read_xyz, [](io::OutputFile& file, const Mesh& mesh, io::Encoding) { io::write_xyz(file, mesh); }},
+    {"glb", nullptr, write_glb},
+    {"usda", nullptr, [](io::OutputFile& file, const Mesh& mesh, io::Encoding) { io::write_usda(file, mesh); }},
 };
 
 /// The format that was asked for, else the one of the extension; a leading dot and capitals do not matter.
@@ -50,9 +63,15 @@ std::string_view without_byte_order_mark(std::string_view bytes) {
 
 }  // namespace
 
+std::string file_format(const std::string& path, const std::string& wish) { return find_format(path, wish).extension; }
+
 Mesh read_mesh(const std::string& path, const std::string& format, const Progress& progress) {
   constexpr double kFetched = 0.2;  // of the time
   const Format& known = find_format(path, format);
+  if (known.read == nullptr) {
+    throw Error(ErrorCode::UnknownFormat,
+                path + ": " + known.extension + " is only written; read the mesh that it was made from");
+  }
   const io::InputFile file(path, progress_within(progress, 0.0, kFetched));
   return known.read({path == "-" ? "standard input" : path, without_byte_order_mark(file.bytes()), io::kChunkBytes,
                      progress_within(progress, kFetched, 1.0)});

@@ -9,21 +9,6 @@ namespace batten::io {
 
 namespace {
 
-/// A list of vt or vn: with corner rows of its own, or one row per vertex.
-struct CornerList {
-  const Attribute* attribute;
-
-  Index row(const Mesh& mesh, Index corner) const {
-    if (attribute == nullptr) return -1;
-    return attribute->per_corner() ? attribute->corner_rows[corner] : mesh.face_vertices[corner];
-  }
-};
-
-CornerList find_list(const Mesh& mesh, const std::string& name) {
-  const Attribute* at_corners = corner_attribute(mesh, name);
-  return {at_corners != nullptr ? at_corners : vertex_attribute(mesh, name)};
-}
-
 void write_points(OutputFile& file, const Mesh& mesh) {
   const Attribute* color = vertex_attribute(mesh, "color");
   write_rows<TextBuffer>(file, mesh.vertex_count(), [&](TextBuffer& out, std::ptrdiff_t i) {
@@ -81,7 +66,8 @@ void write_tags(OutputFile& file, const Mesh& mesh) {
 /// Writes the groups that begin at faces up to `face`; returns the next group.
 class FaceWriter {
  public:
-  explicit FaceWriter(const Mesh& mesh) : mesh_(mesh), uv_(find_list(mesh, "uv")), normal_(find_list(mesh, "normal")) {}
+  explicit FaceWriter(const Mesh& mesh)
+      : mesh_(mesh), uv_(corner_list(mesh, "uv")), normal_(corner_list(mesh, "normal")) {}
 
   void put(TextBuffer& out, Index face) const {
     put_groups(out, face);
@@ -120,12 +106,12 @@ void write_obj(OutputFile& file, const Mesh& mesh) {
   const auto rows_of = [](const CornerList& list) {
     return list.attribute == nullptr ? 0 : list.attribute->values.rows();
   };
-  file.expect_rows(mesh.vertex_count() + rows_of(find_list(mesh, "uv")) + rows_of(find_list(mesh, "normal")) +
+  file.expect_rows(mesh.vertex_count() + rows_of(corner_list(mesh, "uv")) + rows_of(corner_list(mesh, "normal")) +
                    static_cast<std::ptrdiff_t>(mesh.creases.size()) + mesh.face_count());
   for (const std::string& library : mesh.material_libraries) file.write("mtllib " + library + "\n");
   write_points(file, mesh);
-  write_list(file, "vt", find_list(mesh, "uv"));
-  write_list(file, "vn", find_list(mesh, "normal"));
+  write_list(file, "vt", corner_list(mesh, "uv"));
+  write_list(file, "vn", corner_list(mesh, "normal"));
   write_tags(file, mesh);
   const FaceWriter faces(mesh);
   // One past the last face, for groups that begin there.

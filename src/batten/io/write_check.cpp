@@ -149,4 +149,18 @@ const Attribute* corner_attribute(const Mesh& mesh, const std::string& attribute
   return find_attribute(mesh, attribute, true);
 }
 
+CornerList corner_list(const Mesh& mesh, const std::string& attribute) {
+  const Attribute* at_corners = corner_attribute(mesh, attribute);
+  return {at_corners != nullptr ? at_corners : vertex_attribute(mesh, attribute)};
+}
+
+void require_finite(const std::string& name, const CornerList& list) {
+  if (list.attribute == nullptr) return;
+  const Values& values = list.attribute->values;
+  const auto bad = Checker::find(values.size(), [&](std::ptrdiff_t i) { return !std::isfinite(values.data()[i]); });
+  if (bad < 0) return;
+  throw Error(ErrorCode::NotFinite, name + ": attribute '" + list.attribute->name + "', row " +
+                                        std::to_string(bad / values.cols()) + ": a number is not finite");
+}
+
 }  // namespace batten::io

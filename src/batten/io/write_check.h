@@ -15,4 +15,20 @@ void require_writable(const std::string& name, const Mesh& mesh);
 const Attribute* vertex_attribute(const Mesh& mesh, const std::string& attribute);
 const Attribute* corner_attribute(const Mesh& mesh, const std::string& attribute);
 
+/// An attribute as the corners see it: with corner rows of its own, or its vertices' rows.
+struct CornerList {
+  const Attribute* attribute;
+
+  /// The row of `attribute` at a corner, or -1.
+  Index row(const Mesh& mesh, Index corner) const {
+    if (attribute == nullptr) return -1;
+    return attribute->per_corner() ? attribute->corner_rows[corner] : mesh.face_vertices[corner];
+  }
+};
+/// The attribute of that name, the corners' before the vertices'.
+CornerList corner_list(const Mesh& mesh, const std::string& attribute);
+
+/// Throws Error(NotFinite) where a value of the list is not finite.
+void require_finite(const std::string& name, const CornerList& list);
+
 }  // namespace batten::io

@@ -53,6 +53,7 @@ struct Mesh {
   std::vector<Group> groups;
   std::vector<std::string> material_libraries;  ///< OBJ: mtllib, passed through
   /// The file's word on the surface, where it has one.
+  std::optional<SchemeKind> scheme;
   std::optional<BoundaryRule> boundary;
   std::optional<CreaseMethod> crease_method;
   std::optional<TriangleRule> triangle_rule;

@@ -187,6 +187,7 @@ void carry_over(const Draft& draft, RepairResult& result, RepairLog& log) {
   carrier.groups();
   carrier.attributes();
   mesh.material_libraries = input.material_libraries;
+  mesh.scheme = input.scheme;
   mesh.boundary = input.boundary;
   mesh.crease_method = input.crease_method;
   mesh.triangle_rule = input.triangle_rule;

@@ -63,7 +63,11 @@ class EarCutter {
   std::vector<Index> left_;
 };
 
-void split(const Mesh& mesh, Index first, Index size, std::vector<Triangle>& out) {
+}  // namespace
+
+void triangulate_face(const Mesh& mesh, Index face, std::vector<std::array<Index, 3>>& out) {
+  const Index first = mesh.face_offsets[face];
+  const Index size = mesh.face_size(face);
   if (size == 3) {
     out.push_back({0, 1, 2});
   } else if (size == 4) {
@@ -81,8 +85,6 @@ void split(const Mesh& mesh, Index first, Index size, std::vector<Triangle>& out
   }
 }
 
-}  // namespace
-
 Mesh triangulated(const Mesh& mesh) {
   Mesh result = mesh;
   result.face_offsets.assign(1, 0);
@@ -94,7 +96,7 @@ Mesh triangulated(const Mesh& mesh) {
   for (Index f = 0; f < mesh.face_count(); ++f) {
     const Index first = mesh.face_offsets[f];
     triangles.clear();
-    split(mesh, first, mesh.face_size(f), triangles);
+    triangulate_face(mesh, f, triangles);
     for (const Triangle& triangle : triangles) {
       for (const Index i : triangle) {
         result.face_vertices.push_back(mesh.face_vertices[first + i]);

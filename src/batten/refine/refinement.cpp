@@ -193,7 +193,7 @@ RefinedSurface refine(const Topology& topology, const Scheme& scheme, ConstValue
 
 Scheme choose_scheme(const Mesh& mesh) {
   Scheme scheme;
-  scheme.kind = all_triangles(mesh) ? SchemeKind::Loop : SchemeKind::CatmullClark;
+  scheme.kind = mesh.scheme.value_or(all_triangles(mesh) ? SchemeKind::Loop : SchemeKind::CatmullClark);
   scheme.boundary = mesh.boundary.value_or(scheme.boundary);
   scheme.crease_method = mesh.crease_method.value_or(scheme.crease_method);
   scheme.triangle_rule = mesh.triangle_rule.value_or(scheme.triangle_rule);

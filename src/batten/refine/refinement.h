@@ -49,7 +49,7 @@ struct RefinedSurface {
 RefinedSurface refine(const Topology& topology, const Scheme& scheme, ConstValuesRef values, int levels,
                       const Progress& progress = {});
 
-/// The scheme that a mesh asks for: its tags, Loop for triangles and Catmull-Clark for anything else.
+/// The scheme that a mesh asks for: its own word, else Loop for triangles and Catmull-Clark for anything else.
 Scheme choose_scheme(const Mesh& mesh);
 
 /// Faces that are no part of the surface: tagged holes and, under BoundaryRule::None, the faces at boundary vertices

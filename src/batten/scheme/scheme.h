@@ -4,8 +4,6 @@
 
 namespace batten {
 
-enum class SchemeKind { CatmullClark, Loop };
-
 /// The defaults are OpenSubdiv's, but for the boundary: its own is None.
 struct Scheme {
   SchemeKind kind = SchemeKind::CatmullClark;

@@ -1,0 +1,222 @@
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <ostream>
+#include <streambuf>
+
+#include "batten/error.h"
+#include "batten/io/drawn_normals.h"
+#include "batten/io/face_sets.h"
+#include "batten/io/float_frame.h"
+#include "batten/io/formats.h"
+#include "batten/io/glb_blocks.h"
+#include "batten/io/merged_corners.h"
+#include "batten/mesh/triangulate.h"
+
+namespace batten::io {
+
+namespace {
+
+/// tinygltf writes to streams; these bytes go on to the file, whose errors come back through the stream.
+class FileStream : public std::streambuf {
+ public:
+  explicit FileStream(OutputFile& file) : file_(file) {}
+
+ protected:
+  std::streamsize xsputn(const char* bytes, std::streamsize count) override {
+    file_.write(bytes, static_cast<std::size_t>(count));
+    return count;
+  }
+  int_type overflow(int_type c) override {
+    const char byte = traits_type::to_char_type(c);
+    file_.write(&byte, 1);
+    return traits_type::not_eof(c);
+  }
+
+ private:
+  OutputFile& file_;
+};
+
+/// Colours of meshes are sRGB, as those of pictures; glTF's are linear.
+double linear_from_srgb(double value) {
+  const double clamped = std::clamp(value, 0.0, 1.0);
+  return clamped <= 0.04045 ? clamped / 12.92 : std::pow((clamped + 0.055) / 1.055, 2.4);
+}
+
+/// The model that tinygltf writes: one mesh, one primitive a material, all with the same vertices.
+class SurfaceModel {
+ public:
+  SurfaceModel(const std::string& name, const Mesh& mesh)
+      : mesh_(mesh),
+        hidden_(hidden_faces(mesh)),
+        frame_(float_frame(name, mesh.points)),
+        uv_(corner_list(mesh, "uv")),
+        color_(corner_list(mesh, "color")),
+        normals_(name, mesh, hidden_) {
+    require_finite(name, uv_);
+    require_finite(name, color_);
+    corners_ = merge_corners(mesh, {uv_, corner_list(mesh, "normal"), color_}, hidden_);
+    if (vertex_count() == 0) {
+      throw Error(ErrorCode::BadShape, name + ": GLB holds triangles only, and the mesh has no face; write xyz or ply");
+    }
+    const std::vector<FaceSet> sets = faces_by_material(mesh);
+    GlbBlocks blocks(name, model_, byte_count() + 4 * sets.size());
+    const std::map<std::string, int> attributes = add_attributes(blocks);
+    model_.meshes.emplace_back();
+    model_.meshes[0].name = "surface";
+    for (const FaceSet& set : sets) {
+      const Buffer<Index> triangles = first_triangles(set);
+      if (triangles.back() == 0) continue;
+      tinygltf::Primitive primitive;
+      primitive.mode = TINYGLTF_MODE_TRIANGLES;
+      primitive.attributes = attributes;
+      primitive.material = add_material(set.name);
+      const auto fill = [&](const auto& put) { put_triangles(set, triangles, put); };
+      const std::size_t count = 3 * static_cast<std::size_t>(triangles.back());
+      primitive.indices = short_indices() ? blocks.add_indices<std::uint16_t>(count, fill)
+                                          : blocks.add_indices<std::uint32_t>(count, fill);
+      model_.meshes[0].primitives.push_back(std::move(primitive));
+    }
+    add_scene();
+  }
+
+  const tinygltf::Model& model() const { return model_; }
+
+ private:
+  std::ptrdiff_t vertex_count() const { return static_cast<std::ptrdiff_t>(corners_.corner_of_vertex.size()); }
+  /// The index 65535 would restart the primitive.
+  bool short_indices() const { return vertex_count() <= 65535; }
+
+  std::size_t byte_count() const {
+    const std::ptrdiff_t floats =
+        6 + (uv_.attribute != nullptr ? 2 : 0) + (color_.attribute != nullptr ? color_.attribute->values.cols() : 0);
+    const std::size_t triangles = mesh_.face_vertices.size() - 2 * static_cast<std::size_t>(mesh_.face_count());
+    return static_cast<std::size_t>(floats * vertex_count()) * sizeof(float) +
+           triangles * 3 * (short_indices() ? sizeof(std::uint16_t) : sizeof(std::uint32_t));
+  }
+
+  /// A corner without a row takes `otherwise`.
+  template <int K>
+  Eigen::Matrix<double, 1, K> value(const CornerList& list, Index corner, double otherwise) const {
+    const Index row = list.row(mesh_, corner);
+    if (row < 0) return Eigen::Matrix<double, 1, K>::Constant(otherwise);
+    return list.attribute->values.row(row);
+  }
+
+  template <int K>
+  Eigen::Matrix<double, 1, K> linear_color(Index corner) const {
+    Eigen::Matrix<double, 1, K> color = value<K>(color_, corner, 1.0);
+    for (int k = 0; k < 3; ++k) color[k] = linear_from_srgb(color[k]);
+    if (K == 4) color[K - 1] = std::clamp(color[K - 1], 0.0, 1.0);
+    return color;
+  }
+
+  std::map<std::string, int> add_attributes(GlbBlocks& blocks) const {
+    std::map<std::string, int> attributes;
+    const auto corner = [&](std::ptrdiff_t vertex) { return corners_.corner_of_vertex[vertex]; };
+    attributes["POSITION"] = blocks.add_floats<3>(vertex_count(), [&](std::ptrdiff_t i) {
+      return Eigen::RowVector3d(mesh_.points.row(mesh_.face_vertices[corner(i)]) - frame_.origin);
+    });
+    blocks.add_bounds(attributes["POSITION"]);
+    attributes["NORMAL"] =
+        blocks.add_floats<3>(vertex_count(), [&](std::ptrdiff_t i) { return normals_.at(corner(i)); });
+    if (uv_.attribute != nullptr) {
+      attributes["TEXCOORD_0"] = blocks.add_floats<2>(vertex_count(), [&](std::ptrdiff_t i) {
+        const Eigen::RowVector2d uv = value<2>(uv_, corner(i), 0.0);
+        return Eigen::RowVector2d(uv[0], 1.0 - uv[1]);  // glTF's v points down
+      });
+    }
+    if (color_.attribute != nullptr && color_.attribute->values.cols() == 4) {
+      attributes["COLOR_0"] =
+          blocks.add_floats<4>(vertex_count(), [&](std::ptrdiff_t i) { return linear_color<4>(corner(i)); });
+    } else if (color_.attribute != nullptr) {
+      attributes["COLOR_0"] =
+          blocks.add_floats<3>(vertex_count(), [&](std::ptrdiff_t i) { return linear_color<3>(corner(i)); });
+    }
+    return attributes;
+  }
+
+  int add_material(const std::string& name) {
+    tinygltf::Material material;
+    material.name = name.empty() ? "surface" : name;
+    material.doubleSided = true;
+    material.pbrMetallicRoughness.metallicFactor = 0.0;
+    material.pbrMetallicRoughness.roughnessFactor = 0.5;
+    // The colours at the vertices are multiplied with it.
+    const double grey = color_.attribute != nullptr ? 1.0 : 0.8;
+    material.pbrMetallicRoughness.baseColorFactor = {grey, grey, grey, 1.0};
+    const bool translucent = color_.attribute != nullptr && color_.attribute->values.cols() == 4 &&
+                             color_.attribute->values.col(3).minCoeff() < 1.0;
+    if (translucent) material.alphaMode = "BLEND";
+    model_.materials.push_back(material);
+    return static_cast<int>(model_.materials.size()) - 1;
+  }
+
+  /// For the faces of a set, one after the other, the number of triangles before each; at the end of all.
+  Buffer<Index> first_triangles(const FaceSet& set) const {
+    Buffer<Index> first{0};
+    for (const auto& range : set.ranges) {
+      for (Index face = range.first; face < range.second; ++face) {
+        first.push_back(first.back() + (hidden_[face] != 0 ? 0 : mesh_.face_size(face) - 2));
+      }
+    }
+    return first;
+  }
+
+  template <typename Put>
+  void put_triangles(const FaceSet& set, const Buffer<Index>& first_triangle, const Put& put) const {
+    const Index* first = first_triangle.data();
+    for (const auto& range : set.ranges) {
+      parallel_for(range.second - range.first, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        std::vector<std::array<Index, 3>> triangles;
+        for (std::ptrdiff_t i = begin; i < end; ++i) {
+          const auto face = static_cast<Index>(range.first + i);
+          if (hidden_[face] != 0) continue;
+          triangles.clear();
+          triangulate_face(mesh_, face, triangles);
+          std::ptrdiff_t place = std::ptrdiff_t{3} * first[i];
+          for (const std::array<Index, 3>& triangle : triangles) {
+            for (const Index k : triangle) put(place++, corners_.vertex_of_corner[mesh_.face_offsets[face] + k]);
+          }
+        }
+      });
+      first += range.second - range.first;
+    }
+  }
+
+  void add_scene() {
+    tinygltf::Node node;
+    node.name = "surface";
+    node.mesh = 0;
+    if (!frame_.origin.isZero(0.0)) node.translation = {frame_.origin[0], frame_.origin[1], frame_.origin[2]};
+    model_.nodes.push_back(node);
+    model_.scenes.emplace_back();
+    model_.scenes[0].nodes = {0};
+    model_.defaultScene = 0;
+    model_.asset.version = "2.0";
+    model_.asset.generator = "Batten";
+  }
+
+  const Mesh& mesh_;
+  Buffer<std::uint8_t> hidden_;
+  FloatFrame frame_;
+  CornerList uv_;
+  CornerList color_;
+  DrawnNormals normals_;
+  MergedCorners corners_;
+  tinygltf::Model model_;
+};
+
+}  // namespace
+
+void write_glb(OutputFile& file, const Mesh& mesh) {
+  const SurfaceModel surface(file.name(), mesh);
+  FileStream bytes(file);
+  std::ostream stream(&bytes);
+  stream.exceptions(std::ios::badbit);
+  tinygltf::TinyGLTF().WriteGltfSceneToStream(&surface.model(), stream, false, true);
+}
+
+}  // namespace batten::io
