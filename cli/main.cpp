@@ -243,6 +243,7 @@ void add_render(CLI::App& app, RenderArguments& arguments, int& status) {
 int run(int argc, char** argv) {
   CLI::App app("Batten: smooth subdivision surfaces through data.", "batten");
   app.set_version_flag("--version", std::string("batten ") + BATTEN_VERSION);
+  app.set_help_all_flag("--help-all", "Print the help of every verb");
   app.require_subcommand(1);
   app.get_formatter()->column_width(38);
   Verbs verbs;

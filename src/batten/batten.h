@@ -1,4 +1,4 @@
-/// \file Everything of the library's core.
+/// \file Everything of the library but pictures (render/render.h).
 #pragma once
 #include "batten/error.h"
 #include "batten/interpolate/interpolator.h"
@@ -14,7 +14,10 @@
 #include "batten/mesh/summary.h"
 #include "batten/mesh/topology.h"
 #include "batten/mesh/triangulate.h"
-#include "batten/parallel/parallel.h"
+#include "batten/parallel/threads.h"
 #include "batten/refine/refined_mesh.h"
 #include "batten/refine/refinement.h"
 #include "batten/scheme/scheme.h"
+
+/// Subdivision surfaces through data.
+namespace batten {}

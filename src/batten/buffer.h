@@ -53,6 +53,7 @@ struct BufferAllocator {
   }
 };
 
+/// A std::vector of numbers, with that allocator.
 template <typename T>
 using Buffer = std::vector<T, BufferAllocator<T>>;
 

@@ -29,6 +29,7 @@ enum class ErrorCode {
   NotAvailable    ///< an optional part that this build lacks
 };
 
+/// A code for the program, a sentence for the person.
 class Error : public std::runtime_error {
  public:
   Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}

@@ -6,15 +6,21 @@
 
 namespace batten {
 
+/// Counts vertices, faces, half-edges and the rest.
 using Index = std::int32_t;
 
-/// N-by-k, row i belongs to element i. Everything linear works on these; positions are k = 3.
-using Values = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+/// N-by-k, row i belongs to element i. Everything linear works on these; positions are k = 3. DontAlign: their memory
+/// comes from malloc, whatever a program and the library were compiled for, so that either may free what the other
+/// made.
+using Values = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor | Eigen::DontAlign>;
+/// N-by-3, likewise.
+using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor | Eigen::DontAlign>;
 /// A parameter type: binds to Values, to Points and to blocks of rows or columns without a copy.
 using ConstValuesRef = const Eigen::Ref<const Values, 0, Eigen::OuterStride<>>&;
+/// Likewise, to be written to.
 using ValuesRef = Eigen::Ref<Values, 0, Eigen::OuterStride<>>;
 
+/// Catmull-Clark takes faces of any size, Loop triangles.
 enum class SchemeKind { CatmullClark, Loop };
 
 /// What the surface does at a boundary (OpenSubdiv's names).

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "batten/interpolate/interpolator.h"
+#include "batten/refine/vertex_blend.h"
 #include "conformance/conformance_data.h"
 #include "conformance/opensubdiv_oracle.h"
 

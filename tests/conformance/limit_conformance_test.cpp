@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "batten/limit/limit_matrix.h"
+#include "batten/refine/vertex_blend.h"
 #include "conformance/conformance_data.h"
 #include "conformance/opensubdiv_oracle.h"
 #include "support/shapes.h"

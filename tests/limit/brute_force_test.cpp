@@ -4,6 +4,7 @@
 
 #include "batten/limit/limit_matrix.h"
 #include "batten/refine/refinement.h"
+#include "batten/refine/vertex_blend.h"
 #include "support/shapes.h"
 
 namespace batten {

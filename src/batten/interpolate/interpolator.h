@@ -22,6 +22,7 @@ enum class OnSingular {
   Alpha          ///< Lai's alpha = 1/2 on the component: exact, see ordinary_surface()
 };
 
+/// How to interpolate.
 struct InterpolateOptions {
   SolveMethod method = SolveMethod::Auto;
   double tolerance = 1e-10;  ///< of the targets' bounding-box diagonal
@@ -31,6 +32,7 @@ struct InterpolateOptions {
   LimitMasks masks = LimitMasks::Exact;
 };
 
+/// The control points and what was achieved.
 struct Interpolant {
   Values control;          ///< P, V-by-k, in the unit of the targets
   SolveReport report;      ///< of the smooth vertices

@@ -40,6 +40,7 @@ Mesh read_mesh(const std::string& path, const std::string& format = "", const Pr
 /// without a dot. Throws Error(UnknownFormat).
 std::string file_format(const std::string& path, const std::string& wish = "");
 
+/// How to write.
 struct WriteOptions {
   std::string format;  ///< "obj", "ply", "off", "stl", "xyz", "glb", "usda"; empty: by the extension
   bool binary = true;  ///< PLY and STL: little-endian bytes; otherwise text with the shortest digits that read back

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "batten/error.h"
+#include "batten/limit/ring_limit.h"
 #include "batten/parallel/parallel.h"
 #include "batten/refine/child_topology.h"
 

@@ -8,12 +8,15 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
-#include "batten/limit/ring_limit.h"
 #include "batten/mesh/topology.h"
+#include "batten/scheme/masks.h"
 #include "batten/scheme/scheme.h"
 
 namespace batten {
 
+struct VertexRing;
+
+/// What a row of the limit matrix consists of.
 enum class LimitRow : std::uint8_t {
   Fixed,   ///< the vertex itself: corners, vertices without faces
   Curve,   ///< on a crease or boundary curve: itself and its two neighbours along it
@@ -21,6 +24,7 @@ enum class LimitRow : std::uint8_t {
   Special  ///< stored weights: darts, semi-sharp surroundings, smooth triangles
 };
 
+/// How the rows of a limit matrix are chosen.
 struct LimitOptions {
   LimitMasks masks = LimitMasks::Exact;
   std::vector<double> vertex_alpha;  ///< empty, or Lai's alpha for each vertex instead of the scheme's

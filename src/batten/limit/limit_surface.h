@@ -17,6 +17,7 @@
 
 namespace batten {
 
+/// A point of the surface: a face and the place within it.
 struct SurfacePlace {
   Index face = 0;
   double u = 0.0;

@@ -29,9 +29,6 @@ struct RingRules {
 
 RingRules ring_rules(const Topology& topology, const Scheme& scheme, double alpha, Index vertex, VertexRing& ring);
 
-/// Darts: exact, or the smooth mask as in OpenSubdiv; valence 2: exact, or the vertex itself as in OpenSubdiv.
-enum class LimitMasks { Exact, OpenSubdiv };
-
 RingMask limit_position_mask(const RingRules& rules, LimitMasks choice);
 
 /// The part of a ring between two sharp edges (or all of it), with one tangent plane.

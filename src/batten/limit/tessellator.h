@@ -14,7 +14,6 @@
 #include <span>
 
 #include "batten/mesh/topology.h"
-#include "batten/refine/pieces.h"
 #include "batten/scheme/scheme.h"
 
 namespace batten {
@@ -66,6 +65,7 @@ struct Tessellation {
   Buffer<Index> faces;     ///< face_size vertices a face
 };
 
+/// What tessellate() computes.
 struct TessellateOptions {
   bool limit = false;    ///< limit positions instead of refined control points
   bool normals = false;  ///< of the limit surface

@@ -8,6 +8,7 @@
 
 namespace batten {
 
+/// One thing that is wrong with a mesh.
 struct MeshProblem {
   ErrorCode kind;
   std::size_t count = 0;              ///< of faces, edges, vertices, components or tags

@@ -42,6 +42,7 @@ struct Group {
   Index first_face;
 };
 
+/// What a file holds, and what a program may build itself.
 struct Mesh {
   Points points = Points(0, 3);   ///< V-by-3, in the file's unit
   Buffer<Index> face_offsets{0};  ///< F+1: face f has the corners [face_offsets[f], face_offsets[f+1])

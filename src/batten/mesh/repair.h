@@ -23,6 +23,7 @@
 
 namespace batten {
 
+/// What was done, in the words of the list above.
 enum class RepairKind {
   BadFaces,          ///< dropped: they name no vertex, or one that is not finite
   DegenerateFaces,   ///< dropped: fewer than three different vertices
@@ -37,6 +38,7 @@ enum class RepairKind {
   DroppedTags        ///< creases, corners and holes on what does not exist (any more)
 };
 
+/// Everything of one kind that was changed.
 struct RepairChange {
   RepairKind kind;
   Index count = 0;              ///< how many faces, vertices, edges or tags
@@ -44,11 +46,13 @@ struct RepairChange {
   std::string text;             ///< a sentence with the count and the first few
 };
 
+/// What may be changed beyond what must be.
 struct RepairOptions {
   /// How near vertices must be to be welded, of the bounding box's diagonal. 0: equal coordinates; below 0: no welding.
   double weld = 0.0;
 };
 
+/// The repaired mesh, and where its elements come from.
 struct RepairResult {
   Mesh mesh;
   std::vector<RepairChange> changes;  ///< in the order above; empty: the mesh is the input

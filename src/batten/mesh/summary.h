@@ -22,6 +22,7 @@ struct ComponentSummary {
   Index genus() const { return (2 - boundary_loops - euler_characteristic()) / 2; }
 };
 
+/// The components, and counts over the whole mesh.
 struct MeshSummary {
   std::vector<ComponentSummary> components;  ///< by lowest vertex
   Index isolated_vertices = 0;

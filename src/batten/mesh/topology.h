@@ -109,6 +109,7 @@ struct Components {
   Buffer<Index> of_vertex;
   Index count = 0;
 };
+/// O(H).
 Components connected_components(const Topology& topology);
 
 /// Faces as a mesh's arrays, with the tags; points and attributes are the caller's.

@@ -5,9 +5,9 @@
 #pragma once
 #include <algorithm>
 #include <cstddef>
-#include <memory>
 #include <vector>
 
+#include "batten/parallel/threads.h"
 #include "batten/progress.h"
 
 #ifdef BATTEN_WITH_TBB
@@ -18,22 +18,6 @@
 namespace batten {
 
 inline constexpr std::ptrdiff_t kDefaultBlock = 4096;
-
-/// Number of threads that loops may use now.
-int thread_count();
-
-/// While it lives, loops use at most `threads` threads; fewer than 1 means no limit. Does not change any result.
-class ThreadLimit {
- public:
-  explicit ThreadLimit(int threads);
-  ~ThreadLimit();
-  ThreadLimit(const ThreadLimit&) = delete;
-  ThreadLimit& operator=(const ThreadLimit&) = delete;
-
- private:
-  struct Control;
-  std::unique_ptr<Control> control_;
-};
 
 /// Calls body(block) for each block in [begin, end).
 template <typename Body>

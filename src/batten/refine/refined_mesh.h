@@ -6,6 +6,7 @@
 
 namespace batten {
 
+/// A mesh and its connectivity.
 struct RefinedMesh {
   Topology topology;
   Mesh mesh;  ///< the same connectivity, with points and attributes

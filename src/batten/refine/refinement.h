@@ -40,6 +40,7 @@ class Refinement {
   Topology child_;
 };
 
+/// A finer control mesh: its connectivity and its control points.
 struct RefinedSurface {
   Topology topology;
   Values values;

@@ -7,6 +7,7 @@
 
 namespace batten {
 
+/// Which colours stand for which numbers.
 enum class ColorMap {
   Sequential,  ///< viridis (Smith and van der Walt 2015): dark violet for little, yellow for much
   Diverging,   ///< cool to warm (Moreland 2009, key M09): blue below the middle, grey at it, red above
@@ -16,6 +17,7 @@ enum class ColorMap {
 /// The colour at a position in [0, 1]. Grey for NaN.
 Color map_color(ColorMap map, double position);
 
+/// Colours for numbers, and the words of their bar.
 struct ColorScale {
   ColorMap map = ColorMap::Sequential;
   std::string title;
@@ -31,6 +33,7 @@ struct ColorScale {
   double position(double value) const;
 };
 
+/// What to scale to colours, and how.
 struct ScaleRequest {
   std::string title;
   std::string unit;

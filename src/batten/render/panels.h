@@ -7,6 +7,7 @@
 
 namespace batten {
 
+/// One picture of a row.
 struct Panel {
   Picture picture;
   std::string caption;  ///< at the foot of the picture, over what it shows there; empty for none

@@ -7,6 +7,7 @@
 
 namespace batten {
 
+/// One line of a plot.
 struct PlotLine {
   std::string name;        ///< written at the line's end, or in a legend where there is no room; may be empty
   std::vector<double> x;   ///< finite; as many as y
@@ -14,6 +15,7 @@ struct PlotLine {
   bool reference = false;  ///< thin, grey and dashed: a threshold to compare with
 };
 
+/// Lines over a pair of axes.
 struct Plot {
   std::string title;
   std::string x_label;

@@ -57,6 +57,7 @@ struct Viewpoint {
   UpAxis up;  ///< Y or Z
 };
 
+/// How to draw a scene.
 struct RenderOptions {
   int width = 1600;
   int height = 1200;

@@ -36,9 +36,9 @@ EdgeMask edge_mask(const Scheme& scheme, int triangles);
 
 /// Crease and boundary curves are uniform cubic B-splines: v' = (a + 6 v + b)/8, limit (a + 4 v + b)/6.
 inline constexpr double kCreaseVertex = 0.75;
-inline constexpr double kCreaseNeighbour = 0.125;
-inline constexpr double kCreaseLimitVertex = 4.0 / 6.0;
-inline constexpr double kCreaseLimitNeighbour = 1.0 / 6.0;
+inline constexpr double kCreaseNeighbour = 0.125;           ///< of each neighbour along the curve
+inline constexpr double kCreaseLimitVertex = 4.0 / 6.0;     ///< in the limit
+inline constexpr double kCreaseLimitNeighbour = 1.0 / 6.0;  ///< in the limit, of each neighbour
 
 /// Weights on a ring: the vertex, its edges counter-clockwise, and the quad corners after each edge.
 struct RingMask {
@@ -60,6 +60,10 @@ enum class CreaseTangents {
   Exact,      ///< the limit of the rules refined with, where one exists: k <= 3 faces (Catmull-Clark), k <= 5 (Loop)
   OpenSubdiv  ///< its masks for every k; beyond the bounds above both choices are the same
 };
+/// Which limit masks to take where OpenSubdiv's are not the limit of the rules refined with.
+/// Darts: exact, or the smooth mask as in OpenSubdiv; valence 2: exact, or the vertex itself as in OpenSubdiv.
+enum class LimitMasks { Exact, OpenSubdiv };
+
 /// A span of k >= 1 faces between two sharp edges e_0 (leading) and e_k: first = along e_0 - e_k, second = across.
 TangentMasks crease_tangents(SchemeKind kind, int faces, CreaseTangents choice);
 

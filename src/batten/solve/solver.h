@@ -8,6 +8,7 @@
 
 namespace batten {
 
+/// How a system is solved.
 enum class SolveMethod {
   Auto,
   ConjugateGradient,  ///< on the symmetric scaled system, diagonal preconditioner

@@ -1,0 +1,16 @@
+#include "batten/batten.h"
+#include "batten/render/render.h"
+
+/// A picture of the surface of a control mesh, smooth by its own limit normals.
+int main(int argc, char** argv) {
+  if (argc != 3) return 2;
+  const batten::Mesh control = batten::read_mesh(argv[1]);
+  const batten::Scheme scheme = batten::choose_scheme(control);
+  const batten::Topology topology(control);
+  const batten::RefinedSurface fine = batten::refine(topology, scheme, control.points, 3);
+  batten::Scene scene;
+  scene.surface = batten::mesh_from_topology(fine.topology);
+  scene.surface.points = batten::LimitMatrix(fine.topology, scheme).apply(fine.values);
+  scene.lines = control;
+  batten::write_png(argv[2], batten::render(scene, {.width = 640, .height = 480}));
+}

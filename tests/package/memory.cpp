@@ -1,0 +1,34 @@
+/// Matrices made on one side of the library's border and freed on the other: Eigen's own allocators differ with the
+/// flags (docs/decisions/006-eigen-layout.md), so that a wrong border dies here.
+#include <cstdio>
+#include <string>
+#include <utility>
+
+#include "batten/batten.h"
+
+int main(int /*argc*/, char** argv) {
+  const std::string file = std::string(argv[0]) + ".ply";
+  for (int round = 0; round < 20; ++round) {
+    batten::Mesh mesh = batten::triangulated(batten::torus(6 + round, 7));  // made there
+    mesh.points.conservativeResize(mesh.vertex_count(), 3);                 // grown here
+    const batten::Topology topology(mesh);
+    const batten::Values targets = batten::Values::Random(mesh.vertex_count(), 3);
+    for (const auto method : {batten::SolveMethod::Auto, batten::SolveMethod::Direct}) {
+      const batten::Interpolator interpolator(topology, batten::choose_scheme(mesh), {.method = method});
+      batten::Interpolant result = interpolator.solve(targets);
+      if (result.max_error > 1e-8) return std::printf("max error %g\n", result.max_error), 1;
+      result.control = targets;  // freed or kept here
+      mesh.attributes.assign(1, batten::Attribute{"normal", std::move(result.control), {}});
+      Eigen::SparseMatrix<double, Eigen::RowMajor> matrix = interpolator.limit_matrix().matrix();
+      matrix = (2.0 * matrix).eval();
+    }
+    batten::write_mesh(file, mesh);
+    mesh = batten::read_mesh(file);
+    if (mesh.attributes.at(0).values != targets) return std::puts("the numbers have changed"), 1;
+  }
+  // The same Eigen types as inside the library, so that the linker may mix both sides' instantiations.
+  Eigen::VectorXi integers = Eigen::VectorXi::LinSpaced(100, 0, 99);
+  Eigen::VectorXd numbers = integers.cast<double>();
+  numbers = (numbers * 2.0).eval();
+  return numbers.sum() == 9900.0 ? 0 : 1;
+}
