@@ -126,6 +126,32 @@ Subject subject_of(const Mesh& given, const Mesh& control, const Scheme& scheme,
   return subject;
 }
 
+void print_table(const InterpolateArguments& arguments, const Topology& topology, const Scheme& scheme,
+                 const Interpolant& result, double diagonal, const std::string& written, const Stages& stages) {
+  Table table;
+  table.add("mesh", mesh_text(topology));
+  table.add("scheme", scheme_text(scheme));
+  table.add("method", fmt::format("{}, {}", result.report.method_name,
+                                  count_of(result.report.iterations, "iteration", "iterations")));
+  add_error_rows(table, result, diagonal);
+  if (result.singular_components > 0) table.add("singular", singular_text(result, arguments.options.on_singular));
+  if (!written.empty()) table.add("written", written);
+  table.add("time", stages.text());
+  table.print(arguments.common);
+}
+
+/// What was reached is written already; the exit code still has to tell.
+void require_tolerance(const Interpolant& result, const InterpolateOptions& options) {
+  const bool least_squares = result.singular_components > 0 && options.on_singular == OnSingular::LeastSquares;
+  if (!result.report.converged && !least_squares) {
+    throw Error(
+        ErrorCode::NotConverged,
+        fmt::format(
+            "the tolerance {:g} was not reached in {} iterations; what was reached is written (try --method auto)",
+            options.tolerance, result.report.iterations));
+  }
+}
+
 }  // namespace
 
 int run_interpolate(const InterpolateArguments& arguments) {
@@ -175,29 +201,12 @@ int run_interpolate(const InterpolateArguments& arguments) {
     plot_residuals(arguments.plot, result.report.method_name, result.report, arguments.options.tolerance * diagonal);
     stages.finish("plot");
   }
-  Table table;
-  table.add("mesh", mesh_text(topology));
-  table.add("scheme", scheme_text(scheme));
-  table.add("method", fmt::format("{}, {}", result.report.method_name,
-                                  count_of(result.report.iterations, "iteration", "iterations")));
-  add_error_rows(table, result, diagonal);
-  if (result.singular_components > 0) table.add("singular", singular_text(result, arguments.options.on_singular));
-  if (!written.empty()) table.add("written", written);
-  table.add("time", stages.text());
-  table.print(common);
+  print_table(arguments, topology, scheme, result, diagonal, written, stages);
   if (arguments.compare_methods) print_methods(methods, diagonal, common);
   nlohmann::ordered_json report = report_json(arguments, topology, scheme, result, diagonal, repairs, stages);
   if (arguments.compare_methods) report["compared_methods"] = methods_json(methods);
   write_json(common.report, report);
-  const bool least_squares =
-      result.singular_components > 0 && arguments.options.on_singular == OnSingular::LeastSquares;
-  if (!result.report.converged && !least_squares) {
-    throw Error(
-        ErrorCode::NotConverged,
-        fmt::format(
-            "the tolerance {:g} was not reached in {} iterations; what was reached is written (try --method auto)",
-            arguments.options.tolerance, result.report.iterations));
-  }
+  require_tolerance(result, arguments.options);
   return 0;
 }
 
