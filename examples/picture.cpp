@@ -12,5 +12,8 @@ int main(int argc, char** argv) {
   scene.surface = batten::mesh_from_topology(fine.topology);
   scene.surface.points = batten::LimitMatrix(fine.topology, scheme).apply(fine.values);
   scene.lines = control;
-  batten::write_png(argv[2], batten::render(scene, {.width = 640, .height = 480}));
+  batten::RenderOptions options;
+  options.width = 640;
+  options.height = 480;
+  batten::write_png(argv[2], batten::render(scene, options));
 }
