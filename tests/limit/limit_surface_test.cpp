@@ -130,7 +130,9 @@ TEST(LimitSurface, HasATangentPlaneAtExtraordinaryVertices) {
           surface.jet({face, us[corner] + t * (middle - us[corner]), vs[corner] + t * (middle - vs[corner])});
       EXPECT_LE((near.point - at.point).norm(), 1e-3);
       // From level to level the planes converge by the ratio of the next eigenvalues, which goes to 1 with the valence.
-      if (valence <= 12) EXPECT_LE((near.du.cross(near.dv).normalized() - normal).norm(), 2e-2);
+      if (valence <= 12) {
+        EXPECT_LE((near.du.cross(near.dv).normalized() - normal).norm(), 2e-2);
+      }
       const Values& control = base.vertex_count() == mesh.vertex_count()
                                   ? Values(mesh.points)
                                   : refine(topology, scheme_of(kind), mesh.points, 1).values;

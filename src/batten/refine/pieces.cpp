@@ -160,7 +160,7 @@ void Pieces::append_taken(const Buffer<Piece>& found, const Buffer<std::uint8_t>
 }
 
 /// Takes the irregular faces whose surroundings occur often enough.
-void Pieces::share_configurations(const Topology& topology, std::size_t fewest, Buffer<Piece>& found,
+void Pieces::share_configurations(const Topology& from, std::size_t fewest, Buffer<Piece>& found,
                                   Buffer<std::uint8_t>& taken) {
   Buffer<std::size_t> irregular;
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -188,7 +188,7 @@ void Pieces::share_configurations(const Topology& topology, std::size_t fewest, 
         Block& block = blocks[begin / kBlock];
         for (std::ptrdiff_t i = begin; i < end; ++i) {
           candidates[i] = {block.keys.size(), block.rows.size(), 0, 0};
-          if (!ring.gather(topology, scheme_, found[irregular[i]].half_edge,
+          if (!ring.gather(from, scheme_, found[irregular[i]].half_edge,
                            fewest > 1 ? kMostRingVertices : FaceRing::kAnyNumber))
             continue;
           candidates[i].key_size = ring.key().size();
@@ -201,26 +201,26 @@ void Pieces::share_configurations(const Topology& topology, std::size_t fewest, 
   const auto key_of = [&](std::ptrdiff_t i) {
     return std::string_view(blocks[i / kBlock].keys).substr(candidates[i].key_start, candidates[i].key_size);
   };
-  struct Group {
+  struct Sharing {
     std::size_t count = 0;
     std::int32_t configuration = -1;
   };
-  std::unordered_map<std::string_view, Group> groups;
-  std::vector<Group*> group_of(irregular.size());
+  std::unordered_map<std::string_view, Sharing> groups;
+  std::vector<Sharing*> group_of(irregular.size());
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     if (candidates[i].key_size == 0) continue;
     group_of[i] = &groups[key_of(i)];
     ++group_of[i]->count;
   }
   for (std::ptrdiff_t i = 0; i < count; ++i) {
-    Group* group = group_of[i];
+    Sharing* group = group_of[i];
     if (group == nullptr || group->count < fewest) continue;
     Piece& piece = found[irregular[i]];
     if (group->configuration < 0) {
       group->configuration = static_cast<std::int32_t>(configurations_.size());
       FaceRing ring;
-      ring.gather(topology, scheme_, piece.half_edge);
-      configurations_.push_back({cut_out(topology, ring.half_edges()).topology, piece.size});
+      ring.gather(from, scheme_, piece.half_edge);
+      configurations_.push_back({cut_out(from, ring.half_edges()).topology, piece.size});
     }
     piece.configuration = group->configuration;
     piece.first_row = rows_.size();

@@ -87,7 +87,7 @@ class Pieces {
   void build(Buffer<Index> faces, bool share);
   Buffer<std::uint8_t> take(int level, const Buffer<Index>& faces, const std::vector<Site>& sites, bool share);
   void append_taken(const Buffer<Piece>& found, const Buffer<std::uint8_t>& taken);
-  void share_configurations(const Topology& topology, std::size_t fewest, Buffer<Piece>& found,
+  void share_configurations(const Topology& from, std::size_t fewest, Buffer<Piece>& found,
                             Buffer<std::uint8_t>& taken);
   std::vector<Site> child_sites(const std::vector<Site>& sites, Index size) const;
   Index aligned_corner(const Site& site, Index size, Piece& piece) const;

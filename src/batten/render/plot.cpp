@@ -220,7 +220,7 @@ class Drawing {
   }
 
   bool is_free(const Box& box, const std::vector<Box>& taken) const {
-    const Box page{{0.0, area_.low.y() - 24 * unit_}, {static_cast<double>(width_), area_.high.y()}};
+    const Box page{{area_.low.x(), area_.low.y() - 24 * unit_}, {static_cast<double>(width_), area_.high.y()}};
     if (!page.holds(box)) return false;
     for (const Box& other : taken) {
       if (box.meets(other)) return false;
