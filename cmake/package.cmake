@@ -23,11 +23,12 @@ macro(batten_deb component package section summary description)
   set(CPACK_COMPONENT_${upper}_DESCRIPTION "${summary}\n${description}")
   install(FILES ${PROJECT_BINARY_DIR}/changelog.Debian.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package}
           COMPONENT ${component} EXCLUDE_FROM_ALL)
-  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} RENAME copyright COMPONENT ${component}
-          EXCLUDE_FROM_ALL)
+  install(FILES ${PROJECT_BINARY_DIR}/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package}
+          COMPONENT ${component} EXCLUDE_FROM_ALL)
 endmacro()
 
-set(about "Finds the control mesh whose Catmull-Clark or Loop subdivision surface passes through the vertices of a mesh, and says how exactly.")
+set(about "Finds the control mesh whose Catmull-Clark or Loop subdivision surface
+passes through the vertices of a mesh, and says how exactly.")
 batten_deb(tool batten graphics "smooth surfaces through the points of a mesh" "${about}")
 batten_deb(library libbatten${BATTEN_SOVERSION} libs "subdivision surfaces through data (library)" "${about}")
 batten_deb(pictures libbatten-render${BATTEN_SOVERSION} libs "pictures of subdivision surfaces (library)"
@@ -36,9 +37,15 @@ batten_deb(development libbatten-dev libdevel "subdivision surfaces through data
 set(CPACK_COMPONENT_TOOL_DEPENDS library pictures)
 set(CPACK_COMPONENT_PICTURES_DEPENDS library)
 set(CPACK_COMPONENT_DEVELOPMENT_DEPENDS library pictures)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/triggers)
+set(CPACK_DEBIAN_PICTURES_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/triggers)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS libeigen3-dev)
 set(CPACK_DEBIAN_TOOL_PACKAGE_RECOMMENDS fonts-dejavu-core)
 
+file(WRITE ${PROJECT_BINARY_DIR}/triggers "activate-noawait ldconfig\n")
+file(WRITE ${PROJECT_BINARY_DIR}/copyright "Copyright: 2026 The Batten authors
+License: Apache-2.0, as in /usr/share/common-licenses/Apache-2.0 on Debian systems
+")
 string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
 file(WRITE ${PROJECT_BINARY_DIR}/changelog.Debian
   "batten (${PROJECT_VERSION}-1) unstable; urgency=medium\n\n  * CHANGELOG.md tells.\n\n -- ${CPACK_PACKAGE_CONTACT}  ${date}\n")
