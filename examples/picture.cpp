@@ -1,7 +1,7 @@
 #include "batten/batten.h"
 #include "batten/render/render.h"
 
-/// A picture of the surface of a control mesh, smooth by its own limit normals.
+/// A picture of the surface of a control mesh, with the control mesh as lines.
 int main(int argc, char** argv) {
   if (argc != 3) return 2;
   const batten::Mesh control = batten::read_mesh(argv[1]);
