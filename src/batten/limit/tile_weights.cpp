@@ -44,13 +44,17 @@ std::vector<Weights4> refined_polygon(int size) {
 /// The refined lattice of Loop's patch: points whose three barycentric coordinates lie in [-1, size + 1].
 class Lattice {
  public:
-  explicit Lattice(int size) : size_(size), points_(static_cast<std::size_t>((size + 3) * (size + 3)), Weights12{}) {}
+  explicit Lattice(int size)
+      : size_(size), points_(static_cast<std::size_t>(size + 3) * static_cast<std::size_t>(size + 3), Weights12{}) {}
   int size() const { return size_; }
   bool holds(int i, int j) const {
     const int k = size_ - i - j;
     return i >= -1 && j >= -1 && k >= -1 && i <= size_ + 1 && j <= size_ + 1 && k <= size_ + 1;
   }
-  Weights12& at(int i, int j) { return points_[static_cast<std::size_t>((j + 1) * (size_ + 3) + i + 1)]; }
+  Weights12& at(int i, int j) {
+    return points_[static_cast<std::size_t>(j + 1) * static_cast<std::size_t>(size_ + 3) +
+                   static_cast<std::size_t>(i + 1)];
+  }
 
  private:
   int size_;

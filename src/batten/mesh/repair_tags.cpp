@@ -23,12 +23,11 @@ void keep_sharpest(std::vector<Placed>& placed) {
   std::sort(placed.begin(), placed.end(), [](const Placed& x, const Placed& y) {
     return std::make_tuple(x.place, -x.sharpness, x.tag) < std::make_tuple(y.place, -y.sharpness, y.tag);
   });
-  placed.erase(std::unique(placed.begin(), placed.end(),
-                           [](const Placed& x, const Placed& y) { return x.place == y.place; }),
-               placed.end());
-  std::sort(placed.begin(), placed.end(), [](const Placed& x, const Placed& y) {
-    return std::tie(x.tag, x.place) < std::tie(y.tag, y.place);
-  });
+  placed.erase(
+      std::unique(placed.begin(), placed.end(), [](const Placed& x, const Placed& y) { return x.place == y.place; }),
+      placed.end());
+  std::sort(placed.begin(), placed.end(),
+            [](const Placed& x, const Placed& y) { return std::tie(x.tag, x.place) < std::tie(y.tag, y.place); });
 }
 
 struct Carrier {

@@ -25,9 +25,7 @@ class SideTable {
   struct Side {
     std::uint64_t edge;  ///< the lower vertex and the higher one
     Index corner;
-    bool operator<(const Side& other) const {
-      return edge != other.edge ? edge < other.edge : corner < other.corner;
-    }
+    bool operator<(const Side& other) const { return edge != other.edge ? edge < other.edge : corner < other.corner; }
   };
 
   /// Faces with a mark in `skipped` (empty: none) have no sides here.

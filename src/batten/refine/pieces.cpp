@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
+#include <string>
 #include <string_view>
 #include <unordered_map>
 
@@ -159,73 +161,87 @@ void Pieces::append_taken(const Buffer<Piece>& found, const Buffer<std::uint8_t>
   });
 }
 
-/// Takes the irregular faces whose surroundings occur often enough.
+/// The keys and vertices of many one-rings, gathered by threads into blocks of their own.
+class Pieces::RingKeys {
+ public:
+  RingKeys(const Topology& from, const Scheme& scheme, const Buffer<Piece>& found, const Buffer<std::size_t>& which,
+           std::size_t most)
+      : entries_(which.size()), blocks_(static_cast<std::size_t>(block_count(count(), kBlock))) {
+    parallel_for(
+        count(),
+        [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+          FaceRing ring;
+          Block& block = blocks_[begin / kBlock];
+          for (std::ptrdiff_t i = begin; i < end; ++i) {
+            entries_[i] = {block.keys.size(), block.rows.size(), 0, 0};
+            if (!ring.gather(from, scheme, found[which[i]].half_edge, most)) continue;
+            entries_[i].key_size = ring.key().size();
+            entries_[i].row_count = ring.vertices().size();
+            block.keys += ring.key();
+            block.rows.insert(block.rows.end(), ring.vertices().begin(), ring.vertices().end());
+          }
+        },
+        kBlock);
+  }
+
+  std::ptrdiff_t count() const { return static_cast<std::ptrdiff_t>(entries_.size()); }
+  /// Empty where the ring was too large.
+  std::string_view key(std::ptrdiff_t i) const {
+    return std::string_view(blocks_[i / kBlock].keys).substr(entries_[i].key_start, entries_[i].key_size);
+  }
+  std::span<const Index> rows(std::ptrdiff_t i) const {
+    return std::span<const Index>(blocks_[i / kBlock].rows).subspan(entries_[i].row_start, entries_[i].row_count);
+  }
+
+ private:
+  static constexpr std::ptrdiff_t kBlock = 512;
+  struct Block {
+    std::string keys;
+    Buffer<Index> rows;
+  };
+  struct Entry {
+    std::size_t key_start = 0;
+    std::size_t row_start = 0;
+    std::size_t key_size = 0;
+    std::size_t row_count = 0;
+  };
+  Buffer<Entry> entries_;
+  std::vector<Block> blocks_;
+};
+
+/// Takes the irregular faces whose surroundings occur at least `fewest` times.
 void Pieces::share_configurations(const Topology& from, std::size_t fewest, Buffer<Piece>& found,
                                   Buffer<std::uint8_t>& taken) {
   Buffer<std::size_t> irregular;
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (taken[i] == 0) irregular.push_back(i);
   }
-  // A block's keys and rows stand one after the other, where the views point to.
-  struct Block {
-    std::string keys;
-    Buffer<Index> rows;
-  };
-  struct Candidate {
-    std::size_t key_start = 0;
-    std::size_t row_start = 0;
-    std::size_t key_size = 0;
-    std::size_t row_count = 0;
-  };
-  constexpr std::ptrdiff_t kBlock = 512;
-  const auto count = static_cast<std::ptrdiff_t>(irregular.size());
-  std::vector<Block> blocks(static_cast<std::size_t>(block_count(count, kBlock)));
-  Buffer<Candidate> candidates(irregular.size());
-  parallel_for(
-      count,
-      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-        FaceRing ring;
-        Block& block = blocks[begin / kBlock];
-        for (std::ptrdiff_t i = begin; i < end; ++i) {
-          candidates[i] = {block.keys.size(), block.rows.size(), 0, 0};
-          if (!ring.gather(from, scheme_, found[irregular[i]].half_edge,
-                           fewest > 1 ? kMostRingVertices : FaceRing::kAnyNumber))
-            continue;
-          candidates[i].key_size = ring.key().size();
-          candidates[i].row_count = ring.vertices().size();
-          block.keys += ring.key();
-          block.rows.insert(block.rows.end(), ring.vertices().begin(), ring.vertices().end());
-        }
-      },
-      kBlock);
-  const auto key_of = [&](std::ptrdiff_t i) {
-    return std::string_view(blocks[i / kBlock].keys).substr(candidates[i].key_start, candidates[i].key_size);
-  };
+  const RingKeys rings(from, scheme_, found, irregular, fewest > 1 ? kMostRingVertices : FaceRing::kAnyNumber);
   struct Sharing {
     std::size_t count = 0;
     std::int32_t configuration = -1;
   };
-  std::unordered_map<std::string_view, Sharing> groups;
-  std::vector<Sharing*> group_of(irregular.size());
-  for (std::ptrdiff_t i = 0; i < count; ++i) {
-    if (candidates[i].key_size == 0) continue;
-    group_of[i] = &groups[key_of(i)];
-    ++group_of[i]->count;
+  std::unordered_map<std::string_view, Sharing> sharings;
+  std::vector<Sharing*> sharing_of(irregular.size());
+  for (std::ptrdiff_t i = 0; i < rings.count(); ++i) {
+    if (rings.key(i).empty()) continue;
+    sharing_of[i] = &sharings[rings.key(i)];
+    ++sharing_of[i]->count;
   }
-  for (std::ptrdiff_t i = 0; i < count; ++i) {
-    Sharing* group = group_of[i];
-    if (group == nullptr || group->count < fewest) continue;
+  for (std::ptrdiff_t i = 0; i < rings.count(); ++i) {
+    Sharing* sharing = sharing_of[i];
+    if (sharing == nullptr || sharing->count < fewest) continue;
     Piece& piece = found[irregular[i]];
-    if (group->configuration < 0) {
-      group->configuration = static_cast<std::int32_t>(configurations_.size());
+    if (sharing->configuration < 0) {
+      sharing->configuration = static_cast<std::int32_t>(configurations_.size());
       FaceRing ring;
       ring.gather(from, scheme_, piece.half_edge);
       configurations_.push_back({cut_out(from, ring.half_edges()).topology, piece.size});
     }
-    piece.configuration = group->configuration;
+    piece.configuration = sharing->configuration;
     piece.first_row = rows_.size();
-    const Index* rows = blocks[i / kBlock].rows.data() + candidates[i].row_start;
-    rows_.insert(rows_.end(), rows, rows + candidates[i].row_count);
+    const std::span<const Index> rows = rings.rows(i);
+    rows_.insert(rows_.end(), rows.begin(), rows.end());
     taken[irregular[i]] = 1;
   }
 }

@@ -78,6 +78,7 @@ class Pieces {
     Index y;
     std::uint8_t turn;
   };
+  class RingKeys;
   struct Region {
     Cutting cutting;
     Refinement step;
