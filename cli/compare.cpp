@@ -16,12 +16,12 @@ constexpr double kEnoughSeconds = 0.25;
 struct Contestant {
   const char* name;
   SolveMethod method;
-  double omega;
 };
-constexpr Contestant kContestants[] = {{"Batten", SolveMethod::Auto, 0.5},
-                                       {"Thall 2002", SolveMethod::Jacobi, 0.5},
-                                       {"Lai and Cheng 2006", SolveMethod::Richardson, 0.5},
-                                       {"direct", SolveMethod::Direct, 0.5}};
+constexpr Contestant kContestants[] = {{"Batten", SolveMethod::Auto},
+                                       {"Thall 2002", SolveMethod::Jacobi},
+                                       {"Lai and Cheng 2006", SolveMethod::Richardson},
+                                       {"direct", SolveMethod::Direct}};
+constexpr double kThallsOmega = 0.5;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -31,7 +31,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 MethodResult run(const Contestant& contestant, const Topology& topology, const Scheme& scheme,
                  InterpolateOptions options, ConstValuesRef targets, bool quiet) {
   options.method = contestant.method;
-  options.omega = contestant.omega;
+  options.omega = kThallsOmega;
   MethodResult result;
   result.name = contestant.name;
   try {

@@ -20,11 +20,7 @@ Mesh control_mesh(Mesh mesh, const Topology& topology, const Scheme& scheme, con
   const bool same = surface.topology.vertex_count() == topology.vertex_count();
   Mesh control = same ? std::move(mesh) : mesh_from_topology(surface.topology);
   control.points = surface.values;
-  // What the surface depends on is said in the file, so that another program makes the same one of it.
-  control.scheme = scheme.kind;
-  control.boundary = scheme.boundary;
-  if (topology.has_creases()) control.crease_method = scheme.crease_method;
-  if (scheme.triangle_rule == TriangleRule::Smooth) control.triangle_rule = scheme.triangle_rule;
+  state_scheme(scheme, control);
   return control;
 }
 

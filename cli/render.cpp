@@ -37,8 +37,7 @@ int run_render(const RenderArguments& arguments) {
   draw(subject, picture, common.quiet);
   stages.finish("picture");
   Table table;
-  table.add("mesh",
-            count_of(mesh.vertex_count(), "vertex", "vertices") + ", " + count_of(mesh.face_count(), "face", "faces"));
+  table.add("mesh", size_text(mesh));
   table.add("drawn", shown);
   table.add("time", stages.text());
   table.print(common);

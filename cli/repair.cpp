@@ -16,13 +16,10 @@ int run_repair(const RepairArguments& arguments) {
   stages.finish("repair");
   write_output(common, repaired.mesh);
   stages.finish("write");
-  const auto size_of = [](const Mesh& which) {
-    return count_of(which.vertex_count(), "vertex", "vertices") + ", " + count_of(which.face_count(), "face", "faces");
-  };
   Table table;
-  table.add("mesh", size_of(mesh));
+  table.add("mesh", size_text(mesh));
   add_changes(table, "repaired", repaired.changes);
-  table.add("result", size_of(repaired.mesh));
+  table.add("result", size_text(repaired.mesh));
   table.add("time", stages.text());
   table.print(common);
   nlohmann::ordered_json json{{"verb", "repair"},

@@ -328,10 +328,7 @@ Mesh interpolate(const Mesh& mesh, const InterpolateOptions& options, const Prog
   }
   Mesh control = mesh_from_topology(surface.topology);
   control.points = surface.values;
-  control.scheme = mesh.scheme;
-  control.boundary = mesh.boundary;
-  control.crease_method = mesh.crease_method;
-  control.triangle_rule = mesh.triangle_rule;
+  state_scheme(scheme, control);
   return control;
 }
 

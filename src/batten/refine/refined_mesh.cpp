@@ -111,10 +111,7 @@ Mesh mesh_of(const Topology& topology, const Scheme& scheme, const Mesh& control
   mesh.attributes = std::move(attributes);
   mesh.groups = std::move(groups);
   mesh.material_libraries = control.material_libraries;
-  mesh.scheme = scheme.kind;
-  mesh.boundary = scheme.boundary;
-  if (topology.has_creases()) mesh.crease_method = scheme.crease_method;
-  if (scheme.triangle_rule == TriangleRule::Smooth) mesh.triangle_rule = scheme.triangle_rule;
+  state_scheme(scheme, mesh);
   return mesh;
 }
 

@@ -200,6 +200,13 @@ Scheme choose_scheme(const Mesh& mesh) {
   return scheme;
 }
 
+void state_scheme(const Scheme& scheme, Mesh& mesh) {
+  mesh.scheme = scheme.kind;
+  mesh.boundary = scheme.boundary;
+  if (!mesh.creases.empty()) mesh.crease_method = scheme.crease_method;
+  if (scheme.triangle_rule == TriangleRule::Smooth) mesh.triangle_rule = scheme.triangle_rule;
+}
+
 Buffer<std::uint8_t> surface_holes(const Topology& topology, const Scheme& scheme) {
   Buffer<std::uint8_t> holes = topology.tables().holes;
   if (scheme.boundary != BoundaryRule::None) return holes;

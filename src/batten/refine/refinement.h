@@ -53,6 +53,9 @@ RefinedSurface refine(const Topology& topology, const Scheme& scheme, ConstValue
 /// The scheme that a mesh asks for: its own word, else Loop for triangles and Catmull-Clark for anything else.
 Scheme choose_scheme(const Mesh& mesh);
 
+/// The other way: what the surface depends on is said in the mesh, so that who reads it makes the same surface of it.
+void state_scheme(const Scheme& scheme, Mesh& mesh);
+
 /// Faces that are no part of the surface: tagged holes and, under BoundaryRule::None, the faces at boundary vertices
 /// whose boundary edges are not all tagged sharp. One flag a face, or empty for none.
 /// Ask on the control mesh: children inherit holes, and a child's own boundary faces are part of the surface.
