@@ -180,8 +180,8 @@ Vec zebra_albedo(const Lamps& lamps, const Vec& normal, const Vec& towards) {
   constexpr float kBands = 10.0F;
   constexpr float kEdge = 0.06F;  // of a band: its soft edge
   constexpr float kGrazing = 0.22F;
-  const Vec kDark(0.012F, 0.020F, 0.045F);
-  const Vec kLight(0.62F, 0.60F, 0.55F);
+  const Vec dark_paint(0.012F, 0.020F, 0.045F);
+  const Vec light_paint(0.62F, 0.60F, 0.55F);
   const Vec mirrored = towards - 2.0F * normal.dot(towards) * normal;
   // Bands of equal width in the angle from an axis that leans to the side: no pole in the middle of the picture.
   const float angle = std::acos(std::clamp(mirrored.dot(lamps.zebra_axis), -1.0F, 1.0F));
@@ -191,7 +191,7 @@ Vec zebra_albedo(const Lamps& lamps, const Vec& normal, const Vec& towards) {
   // Towards the silhouette the bands become finer than pixels, and would sparkle.
   const float contrast = std::min(1.0F, std::abs(normal.dot(towards)) / kGrazing);
   const float dark = 0.5F + contrast * (t - 0.5F);
-  return dark * kDark + (1.0F - dark) * kLight;
+  return dark * dark_paint + (1.0F - dark) * light_paint;
 }
 
 }  // namespace batten::render_detail
