@@ -65,6 +65,39 @@ TEST(LimitSurface, PassesThroughWhatTheTessellatorMakes) {
   }
 }
 
+/// Sharp and half sharp edges in turn: the midpoint of an edge that leaves a face depends on what is beyond its end.
+/// All faces have one of two surroundings, so that they share their tables.
+TEST(LimitSurface, SeesBothEndsOfAnEdgeUnderChaikinsRule) {
+  const Index across = 8;
+  Mesh mesh = test::jittered(torus(12, across), 0.05, 7);
+  const Topology plain(mesh);
+  for (Index e = 0; e < plain.edge_count(); ++e) {
+    const Index h = plain.edge_half_edge(e);
+    const Index a = std::min(plain.origin(h), plain.destination(h));
+    const Index b = std::max(plain.origin(h), plain.destination(h));
+    if (a % across != b % across) continue;
+    const Index row = b - a == across ? a / across : b / across;  // the last row's edges lead back to the first
+    mesh.creases.push_back({a, b, row % 2 == 0 ? 6.0 : 0.9});
+  }
+  Scheme scheme;
+  scheme.crease_method = CreaseMethod::Chaikin;
+  const Topology topology(mesh);
+  const LimitSurface surface(topology, scheme, mesh.points);
+  // The face points of the second step are the middles of the quarters.
+  const RefinedSurface twice = refine(topology, scheme, mesh.points, 2);
+  const Values limit = LimitMatrix(twice.topology, scheme).apply(twice.values);
+  const Index first = twice.topology.vertex_count() - 4 * topology.face_count();
+  double worst = 0.0;
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    for (Index c = 0; c < 4; ++c) {
+      const Jet jet = surface.jet({f, c == 1 || c == 2 ? 0.75 : 0.25, c >= 2 ? 0.75 : 0.25});
+      worst = std::max(worst, (jet.point - limit.row(first + 4 * f + c).transpose()).norm());
+    }
+  }
+  EXPECT_LE(worst, 1e-14);
+  expect_the_tessellators_limits(mesh, scheme, "torus");
+}
+
 /// Places inside faces, some of them close to a corner.
 std::vector<SurfacePlace> random_places(const Topology& base, bool quads, int count, double nearness) {
   std::mt19937 random(5);

@@ -58,36 +58,55 @@ void FaceRing::add_face(const Topology& topology, Index half_edge) {
   }
 }
 
+/// The faces around the half-edge's origin: counter-clockwise until around, or to the boundary; then clockwise.
+bool FaceRing::add_fan(const Topology& topology, Index half_edge, std::size_t most) {
+  const auto add_edge = [&](Index edge_half_edge, Index far) {
+    const float sharpness = topology.edge_sharpness(topology.edge(edge_half_edge));
+    append(key_, sharpness);
+    if (is_semi_sharp(sharpness)) far_ends_.push_back(far);
+  };
+  Index h = half_edge;
+  while (true) {
+    const Index p = topology.previous(h);
+    add_edge(p, p);
+    h = topology.twin(p);
+    if (h < 0 || h == half_edge) break;
+    add_face(topology, h);
+    if (vertices_.size() > most) return false;
+  }
+  key_.push_back(h == half_edge ? 'c' : 'o');
+  if (h == half_edge) return true;
+  for (Index t = topology.twin(half_edge); t >= 0;) {
+    h = topology.next(t);
+    add_edge(h, topology.next(h));
+    add_face(topology, h);
+    if (vertices_.size() > most) return false;
+    t = topology.twin(h);
+  }
+  key_.push_back('.');
+  return true;
+}
+
 bool FaceRing::gather(const Topology& topology, const Scheme& scheme, Index half_edge, std::size_t most) {
   vertices_.clear();
   starts_.clear();
   faces_.clear();
   key_.clear();
+  far_ends_.clear();
   add_face(topology, half_edge);
   const Index size = topology.face_size(topology.face(half_edge));
   Index side = half_edge;
   for (Index c = 0; c < size; ++c, side = topology.next(side)) {
-    const Index v = topology.origin(side);
-    append(key_, vertex_sharpness(topology, scheme, v));
-    Index h = side;
-    while (true) {  // counter-clockwise until around, or to the boundary
-      const Index p = topology.previous(h);
-      append(key_, topology.edge_sharpness(topology.edge(p)));
-      h = topology.twin(p);
-      if (h < 0 || h == side) break;
-      add_face(topology, h);
-      if (vertices_.size() > most) return false;
-    }
-    key_.push_back(h == side ? 'c' : 'o');
-    if (h == side) continue;
-    for (Index t = topology.twin(side); t >= 0;) {  // then clockwise
-      h = topology.next(t);
-      append(key_, topology.edge_sharpness(topology.edge(h)));
-      add_face(topology, h);
-      if (vertices_.size() > most) return false;
-      t = topology.twin(h);
-    }
-    key_.push_back('.');
+    append(key_, vertex_sharpness(topology, scheme, topology.origin(side)));
+    if (!add_fan(topology, side, most)) return false;
+  }
+  if (scheme.crease_method == CreaseMethod::Uniform) return true;
+  // Chaikin's rule looks at all edges at both ends of a semi-sharp edge.
+  const Buffer<Index> far_ends = far_ends_;
+  for (const Index far : far_ends) {
+    const auto* const own_end = vertices_.data() + size;
+    if (std::find(static_cast<const Index*>(vertices_.data()), own_end, topology.origin(far)) != own_end) continue;
+    if (!add_fan(topology, far, most)) return false;
   }
   return true;
 }

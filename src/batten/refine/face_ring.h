@@ -9,6 +9,7 @@
 namespace batten {
 
 /// Lists the one-ring of a face, from one of its half-edges on, in an order that depends on the surroundings alone.
+/// Under Chaikin's rule also the faces around the far ends of semi-sharp edges that leave the face.
 class FaceRing {
  public:
   static constexpr std::size_t kAnyNumber = static_cast<std::size_t>(-1);
@@ -26,10 +27,12 @@ class FaceRing {
 
  private:
   void add_face(const Topology& topology, Index half_edge);
+  bool add_fan(const Topology& topology, Index half_edge, std::size_t most);
 
   Buffer<Index> vertices_;
   Buffer<Index> starts_;
   Buffer<Index> faces_;
+  Buffer<Index> far_ends_;  ///< half-edges that leave the far ends of semi-sharp edges
   std::string key_;
 };
 

@@ -21,23 +21,32 @@ constexpr std::size_t kFewestSharing = 16;
 /// Tables for larger rings would take more memory than they save time.
 constexpr std::size_t kMostRingVertices = 64;
 
-/// First half-edges of the faces, then of those that share a vertex with one of them.
+/// The faces, then those that share a vertex with one of them.
 Buffer<Index> with_one_ring(const Topology& topology, const Buffer<Index>& faces) {
   Buffer<std::uint8_t> taken(static_cast<std::size_t>(topology.face_count()), 0);
   for (const Index f : faces) taken[f] = 1;
   Buffer<Index> all;
   all.reserve(2 * faces.size());
-  for (const Index f : faces) all.push_back(topology.face_begin(f));
+  all = faces;
   for (const Index f : faces) {
     for (Index h = topology.face_begin(f); h < topology.face_end(f); ++h) {
       topology.for_each_outgoing(topology.origin(h), [&](Index out) {
         const Index neighbour = topology.face(out);
         if (taken[neighbour] != 0) return;
         taken[neighbour] = 1;
-        all.push_back(topology.face_begin(neighbour));
+        all.push_back(neighbour);
       });
     }
   }
+  return all;
+}
+
+/// First half-edges of the faces, then of all that have a say in how their one-rings refine: the one-ring, and under
+/// Chaikin's rule, which looks at both ends of an edge, the second ring.
+Buffer<Index> with_surroundings(const Topology& topology, const Scheme& scheme, const Buffer<Index>& faces) {
+  Buffer<Index> all = with_one_ring(topology, faces);
+  if (scheme.crease_method == CreaseMethod::Chaikin && topology.has_creases()) all = with_one_ring(topology, all);
+  for (Index& face : all) face = topology.face_begin(face);
   return all;
 }
 
@@ -70,7 +79,7 @@ void Pieces::build(Buffer<Index> faces, bool share) {
     }
     if (rest.empty()) break;
     const Topology& from = topology(level);
-    regions_.push_back(std::make_unique<Region>(cut_out(from, with_one_ring(from, rest)), scheme_));
+    regions_.push_back(std::make_unique<Region>(cut_out(from, with_surroundings(from, scheme_, rest)), scheme_));
     sites = child_sites(rest_sites, Index{1} << (levels_ - level - 1));
     faces.resize(sites.size());  // the children of the first faces are the first children
     std::iota(faces.begin(), faces.end(), 0);
