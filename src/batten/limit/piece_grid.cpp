@@ -67,25 +67,21 @@ LevelValues::LevelValues(const Pieces& pieces, ConstValuesRef base) : base_(base
 }
 
 template <typename Scalar>
-GridFiller<Scalar>::GridFiller(const Pieces& pieces, const PieceTables<Scalar>& tables, const LevelValues& values)
+GridFiller<Scalar>::GridFiller(const Pieces& pieces, std::span<const Tables* const> tables, const LevelValues& values)
     : pieces_(pieces), tables_(tables), values_(values), quads_(pieces.scheme().kind == SchemeKind::CatmullClark) {}
 
+/// Sums run around a point of the piece, so that rounding is in proportion to the piece. The weights of a position sum
+/// to 1, those of a tangent to 0.
 template <typename Scalar>
 void GridFiller<Scalar>::gather(const Piece& piece, int count, int columns) {
   const auto needed = static_cast<std::size_t>(count) * static_cast<std::size_t>(columns);
   if (control_.size() < needed) control_.resize(needed);
   const Index* rows = pieces_.rows(piece);
   ConstValuesRef values = values_.at(piece.level);
-  // Positions are summed around a point of the piece, so that rounding is in proportion to the piece. The weights of a
-  // position sum to 1, those of a tangent to 0.
-  const bool position = tables_.value() == TileValue::Refined || tables_.value() == TileValue::Limit;
-  origin_.resize(2 * static_cast<std::size_t>(columns));
+  origin_.resize(static_cast<std::size_t>(columns));
   Index middle = 0;
   while (rows[middle] == RegularPatch::kMissing) ++middle;
-  for (int c = 0; c < columns; ++c) {
-    origin_[c] = static_cast<Scalar>(values(rows[middle], c));
-    origin_[columns + c] = position ? origin_[c] : Scalar(0);
-  }
+  for (int c = 0; c < columns; ++c) origin_[c] = static_cast<Scalar>(values(rows[middle], c));
   bool complete = true;
   for (int i = 0; i < count; ++i) {
     complete = complete && rows[i] != RegularPatch::kMissing;
@@ -93,7 +89,6 @@ void GridFiller<Scalar>::gather(const Piece& piece, int count, int columns) {
     const double* from = values.data() + rows[i] * values.outerStride();
     for (int c = 0; c < columns; ++c) control_[i * columns + c] = static_cast<Scalar>(from[c] - origin_[c]);
   }
-  if (!position) scale_to_one(control_.data(), rows, count, columns);
   if (complete) return;
   if (quads_) {
     complete_quad_patch(rows, control_.data(), columns);
@@ -102,12 +97,17 @@ void GridFiller<Scalar>::gather(const Piece& piece, int count, int columns) {
   }
 }
 
+template <typename Scalar>
+void GridFiller<Scalar>::turn_to_tangents(const Piece& piece, int count, int columns) {
+  scale_to_one(control_.data(), pieces_.rows(piece), count, columns);
+  std::fill(origin_.begin(), origin_.end(), Scalar(0));
+}
+
 /// Along u first: four curves; then every row is a sum of the four.
 template <typename Scalar>
-void GridFiller<Scalar>::fill_quad_patch(const Piece& piece, PieceGrid<Scalar>& grid) {
+void GridFiller<Scalar>::fill_quad_patch(const Piece& piece, const typename Tables::Patch& table,
+                                         PieceGrid<Scalar>& grid) {
   const int k = grid.columns;
-  gather(piece, 16, k);
-  const auto& table = tables_.patch(piece.size);
   const std::ptrdiff_t n = table.stride;
   if (scratch_.size() < static_cast<std::size_t>(4 * n)) scratch_.resize(static_cast<std::size_t>(4 * n));
   for (int c = 0; c < k; ++c) {
@@ -116,7 +116,7 @@ void GridFiller<Scalar>::fill_quad_patch(const Piece& piece, PieceGrid<Scalar>& 
     }
     Scalar* out = grid.plane(c) + grid.place(piece.x, piece.y);
     for (std::ptrdiff_t j = 0; j < n; ++j) {
-      combine_four(out + j * grid.width(), origin_[k + c], &table.v[j], n, scratch_.data(), n, n);
+      combine_four(out + j * grid.width(), origin_[c], &table.v[j], n, scratch_.data(), n, n);
     }
   }
 }
@@ -126,18 +126,17 @@ template <typename Scalar>
 void GridFiller<Scalar>::fill_points(const Piece& piece, const Scalar* weights, std::ptrdiff_t stride, int count,
                                      PieceGrid<Scalar>& grid) {
   const int k = grid.columns;
-  gather(piece, count, k);
   if (scratch_.size() < static_cast<std::size_t>(3 * stride)) scratch_.resize(static_cast<std::size_t>(3 * stride));
   const std::ptrdiff_t sign = piece.turned ? -1 : 1;
   const bool whole = quads_ && piece.size == grid.steps;  // then the grid's planes are the rows of weights
   for (int first = 0; first < k;) {
     const int columns = k - first >= 3 ? 3 : 1;
     if (columns == 3) {
-      combine_many<3>(whole ? grid.plane(first) : scratch_.data(), &origin_[k + first], &control_[first], count, k,
-                      weights, stride);
+      combine_many<3>(whole ? grid.plane(first) : scratch_.data(), &origin_[first], &control_[first], count, k, weights,
+                      stride);
     } else {
-      combine_many<1>(whole ? grid.plane(first) : scratch_.data(), &origin_[k + first], &control_[first], count, k,
-                      weights, stride);
+      combine_many<1>(whole ? grid.plane(first) : scratch_.data(), &origin_[first], &control_[first], count, k, weights,
+                      stride);
     }
     if (whole) {
       first += columns;
@@ -156,7 +155,7 @@ void GridFiller<Scalar>::fill_points(const Piece& piece, const Scalar* weights, 
 }
 
 template <typename Scalar>
-void GridFiller<Scalar>::fill_cell(const Piece& piece, PieceGrid<Scalar>& grid) {
+void GridFiller<Scalar>::fill_cell(const Piece& piece, TileValue value, PieceGrid<Scalar>& grid) const {
   static constexpr int kQuad[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   static constexpr int kTriangle[3][2] = {{0, 0}, {1, 0}, {0, 1}};
   const int sign = piece.turned ? -1 : 1;
@@ -167,11 +166,11 @@ void GridFiller<Scalar>::fill_cell(const Piece& piece, PieceGrid<Scalar>& grid) 
   for (int corner = 0; corner < (quads_ ? 4 : 3); ++corner) {
     const int* step = quads_ ? kQuad[corner] : kTriangle[corner];
     const std::ptrdiff_t place = grid.place(piece.x + sign * step[0], piece.y + sign * step[1]);
-    if (tables_.value() == TileValue::Refined) {
+    if (value == TileValue::Refined) {
       for (int c = 0; c < grid.columns; ++c) grid.plane(c)[place] = static_cast<Scalar>(values(rows[corner], c));
     } else {
       Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(grid.columns);
-      visit_vertex_limit(topology, pieces_.scheme(), tables_.value(), half_edge,
+      visit_vertex_limit(topology, pieces_.scheme(), value, half_edge,
                          [&](Index vertex, double weight) { sum += weight * values.row(vertex); });
       for (int c = 0; c < grid.columns; ++c) grid.plane(c)[place] = static_cast<Scalar>(sum[c]);
     }
@@ -180,19 +179,39 @@ void GridFiller<Scalar>::fill_cell(const Piece& piece, PieceGrid<Scalar>& grid) 
 }
 
 template <typename Scalar>
-void GridFiller<Scalar>::fill(Index face, PieceGrid<Scalar>& grid) {
+void GridFiller<Scalar>::fill_patch(const Piece& piece, const Tables& tables, PieceGrid<Scalar>& grid) {
+  const auto& patch = tables.patch(piece.size);
+  if (patch.dense) {
+    fill_points(piece, patch.u.data(), patch.stride, quads_ ? kQuadPatchSize : kTrianglePatchSize, grid);
+  } else {
+    fill_quad_patch(piece, patch, grid);
+  }
+}
+
+template <typename Scalar>
+void GridFiller<Scalar>::fill(Index face, std::span<PieceGrid<Scalar>> grids) {
+  const int k = grids.front().columns;
   for (const Piece* piece = pieces_.begin(face); piece != pieces_.end(face); ++piece) {
     if (piece->kind == Piece::Kind::Cell) {
-      fill_cell(*piece, grid);
-    } else if (piece->kind == Piece::Kind::Configuration) {
-      const auto& ring = tables_.ring(piece->configuration);
-      fill_points(*piece, ring.weights.data(), ring.stride, ring.vertices, grid);
-    } else {
-      const auto& patch = tables_.patch(piece->size);
-      if (patch.dense) {
-        fill_points(*piece, patch.u.data(), patch.stride, quads_ ? 16 : kTrianglePatchSize, grid);
+      for (std::size_t i = 0; i < grids.size(); ++i) fill_cell(*piece, tables_[i]->value(), grids[i]);
+      continue;
+    }
+    const bool shared = piece->kind == Piece::Kind::Configuration;
+    const int patch_size = quads_ ? kQuadPatchSize : kTrianglePatchSize;
+    const int count = shared ? tables_.front()->ring(piece->configuration).vertices : patch_size;
+    gather(*piece, count, k);
+    bool tangents = false;
+    for (std::size_t i = 0; i < grids.size(); ++i) {
+      const Tables& tables = *tables_[i];
+      if (!tangents && is_tangent(tables.value())) {
+        turn_to_tangents(*piece, count, k);
+        tangents = true;
+      }
+      if (shared) {
+        const auto& ring = tables.ring(piece->configuration);
+        fill_points(*piece, ring.weights.data(), ring.stride, ring.vertices, grids[i]);
       } else {
-        fill_quad_patch(*piece, grid);
+        fill_patch(*piece, tables, grids[i]);
       }
     }
   }

@@ -1,5 +1,6 @@
 /// \file The points of one face's grid, filled piece by piece in the cache.
 #pragma once
+#include <span>
 #include <vector>
 
 #include "batten/limit/piece_tables.h"
@@ -34,26 +35,32 @@ class LevelValues {
   std::vector<Values> storage_;
 };
 
-/// Fills grids with one kind of value; one object for each thread at work.
+/// Fills grids with one or more kinds of value of the same surface; one object for each thread at work.
 template <typename Scalar>
 class GridFiller {
  public:
-  GridFiller(const Pieces& pieces, const PieceTables<Scalar>& tables, const LevelValues& values);
-  void fill(Index face, PieceGrid<Scalar>& grid);
+  using Tables = PieceTables<Scalar>;
+
+  /// Tangents stand after positions in `tables`, which must outlive it.
+  GridFiller(const Pieces& pieces, std::span<const Tables* const> tables, const LevelValues& values);
+  /// grids[i] by tables[i], all of the same columns.
+  void fill(Index face, std::span<PieceGrid<Scalar>> grids);
 
  private:
   void gather(const Piece& piece, int count, int columns);
-  void fill_quad_patch(const Piece& piece, PieceGrid<Scalar>& grid);
+  void turn_to_tangents(const Piece& piece, int count, int columns);
+  void fill_patch(const Piece& piece, const Tables& tables, PieceGrid<Scalar>& grid);
+  void fill_quad_patch(const Piece& piece, const typename Tables::Patch& patch, PieceGrid<Scalar>& grid);
   void fill_points(const Piece& piece, const Scalar* weights, std::ptrdiff_t stride, int count,
                    PieceGrid<Scalar>& grid);
-  void fill_cell(const Piece& piece, PieceGrid<Scalar>& grid);
+  void fill_cell(const Piece& piece, TileValue value, PieceGrid<Scalar>& grid) const;
 
   const Pieces& pieces_;
-  const PieceTables<Scalar>& tables_;
+  std::span<const Tables* const> tables_;
   const LevelValues& values_;
   bool quads_;
   Buffer<Scalar> control_;  ///< rows of k numbers, from the origin
-  Buffer<Scalar> origin_;   ///< k numbers; then k to add to sums: the same, or zeros
+  Buffer<Scalar> origin_;   ///< k numbers to add to sums; zeros for tangents
   Buffer<Scalar> scratch_;
 };
 

@@ -77,7 +77,8 @@ PieceTables<Scalar>::PieceTables(const Pieces& pieces, TileValue value) : value_
     const LevelValues values(own, unit);
     const PieceTables<double> tables(own, value);
     PieceGrid<double> grid(shared.size, vertices);
-    GridFiller<double>(own, tables, values).fill(0, grid);
+    const PieceTables<double>* const kinds[] = {&tables};
+    GridFiller<double>(own, kinds, values).fill(0, std::span(&grid, 1));
     Buffer<double> weights;
     for (Index j = 0; j <= shared.size; ++j) {
       for (Index x = 0; x <= shared.size - (quads ? 0 : j); ++x) {

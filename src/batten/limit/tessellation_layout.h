@@ -7,6 +7,7 @@ namespace batten {
 
 /// Where the vertices of a refined base stand.
 struct TessellationLayout {
+  int levels;
   Index steps;
   bool quads;
   std::int64_t edge_start;  ///< of the points inside edges
@@ -16,7 +17,8 @@ struct TessellationLayout {
   std::int64_t vertices;
   std::int64_t faces_per_face;
 
-  TessellationLayout(const Topology& base, bool quads_in, int levels) : steps(Index{1} << levels), quads(quads_in) {
+  TessellationLayout(const Topology& base, bool quads_in, int levels_in)
+      : levels(levels_in), steps(Index{1} << levels), quads(quads_in) {
     per_edge = steps - 1;
     per_face = quads ? per_edge * per_edge : per_edge * (per_edge - 1) / 2;
     edge_start = base.vertex_count();

@@ -12,6 +12,8 @@
 #include "batten/limit/piece_grid.h"
 #include "batten/limit/tessellation_layout.h"
 #include "batten/parallel/parallel.h"
+#include "batten/refine/child_topology.h"
+#include "batten/refine/refined_values.h"
 
 namespace batten {
 
@@ -31,18 +33,18 @@ struct Tessellator::Parts {
   const Topology& control;
   Scheme scheme;
   std::unique_ptr<Refinement> first;  ///< to the base, where the control mesh itself is not
-  Pieces pieces;
   TessellationLayout layout;
   Buffer<Index> face_rank;  ///< number of drawn base faces before each; empty: all are drawn
   Index drawn_faces;
+  mutable std::once_flag cut;
+  mutable std::unique_ptr<Pieces> cut_pieces;
   mutable std::tuple<TableCache<float>, TableCache<double>> caches;
 
   Parts(const Topology& topology, const Scheme& scheme_in, int levels)
       : control(topology),
         scheme(scheme_in),
         first(needs_first_step(topology, scheme_in) ? std::make_unique<Refinement>(topology, scheme_in) : nullptr),
-        pieces(base(), scheme.after_first_step(), first == nullptr ? levels : levels - 1),
-        layout(base(), scheme.kind == SchemeKind::CatmullClark, pieces.levels()),
+        layout(base(), scheme.kind == SchemeKind::CatmullClark, first == nullptr ? levels : levels - 1),
         drawn_faces(base().face_count()) {
     count_drawn_faces();
     const std::int64_t indices = layout.faces_per_face * drawn_faces * (layout.quads ? 4 : 3);
@@ -70,36 +72,45 @@ struct Tessellator::Parts {
   }
 
   /// Made when first asked for.
+  const Pieces& pieces() const {
+    std::call_once(cut,
+                   [&] { cut_pieces = std::make_unique<Pieces>(base(), scheme.after_first_step(), layout.levels); });
+    return *cut_pieces;
+  }
+
   template <typename Scalar>
   const PieceTables<Scalar>& tables(TileValue value) const {
     auto& cache = std::get<TableCache<Scalar>>(caches);
     const auto place = static_cast<std::size_t>(value);
     std::call_once(cache.made[place],
-                   [&] { cache.tables[place] = std::make_unique<PieceTables<Scalar>>(pieces, value); });
+                   [&] { cache.tables[place] = std::make_unique<PieceTables<Scalar>>(pieces(), value); });
     return *cache.tables[place];
   }
 
+  /// One level by itself: cutting it into pieces takes longer than the rules themselves.
+  bool is_one_step() const { return first == nullptr && layout.levels == 1; }
+
+  template <typename Scalar>
+  void check_output(ConstValuesRef control_values, std::span<Scalar> out, std::span<Scalar> normals) const;
   template <typename Scalar>
   void evaluate(ConstValuesRef control_values, bool limit, std::span<Scalar> out, std::span<Scalar> normals) const;
 };
 
 namespace {
 
-/// Unit normals in place of the first tangent; zero where the tangents are parallel.
+/// Unit normals in place of the first tangents, plane by plane; zero where the tangents are parallel. A function of its
+/// own, because the compiler believes __restrict of parameters, and then uses whole vector registers.
 template <typename Scalar>
-void normals_of(PieceGrid<Scalar>& u, const PieceGrid<Scalar>& v) {
-  Scalar* __restrict x = u.plane(0);
-  Scalar* __restrict y = u.plane(1);
-  Scalar* __restrict z = u.plane(2);
-  const Scalar* __restrict vx = v.plane(0);
-  const Scalar* __restrict vy = v.plane(1);
-  const Scalar* __restrict vz = v.plane(2);
-  for (std::ptrdiff_t i = 0; i < u.plane_size(); ++i) {
+[[gnu::noinline]] void normals_of(Scalar* __restrict x, Scalar* __restrict y, Scalar* __restrict z,
+                                  const Scalar* __restrict vx, const Scalar* __restrict vy, const Scalar* __restrict vz,
+                                  std::ptrdiff_t count) {
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
     const Scalar nx = y[i] * vz[i] - z[i] * vy[i];
     const Scalar ny = z[i] * vx[i] - x[i] * vz[i];
     const Scalar nz = x[i] * vy[i] - y[i] * vx[i];
-    const Scalar square = nx * nx + ny * ny + nz * nz;
-    const Scalar scale = Scalar(1) / std::sqrt(std::max(square, std::numeric_limits<Scalar>::min()));
+    // Tangents were scaled, so the smallest number changes nothing but a zero; a branch would cost the registers too.
+    const Scalar square = (nx * nx + ny * ny + nz * nz) + std::numeric_limits<Scalar>::min();
+    const Scalar scale = Scalar(1) / std::sqrt(square);
     x[i] = nx * scale;
     y[i] = ny * scale;
     z[i] = nz * scale;
@@ -167,47 +178,50 @@ class RowNumbers {
 }  // namespace
 
 template <typename Scalar>
+void Tessellator::Parts::check_output(ConstValuesRef control_values, std::span<Scalar> out,
+                                      std::span<Scalar> normals) const {
+  require_vertex_rows(control, control_values);
+  const std::ptrdiff_t k = control_values.cols();
+  const auto wanted = static_cast<std::size_t>(layout.vertices) * static_cast<std::size_t>(k);
+  if (out.size() == wanted && (normals.empty() || (k == 3 && normals.size() == wanted))) return;
+  throw Error(ErrorCode::BadShape, "the tessellation has " + std::to_string(layout.vertices) + " vertices of " +
+                                       std::to_string(k) + " numbers; the output must have room for just these" +
+                                       (normals.empty() ? "" : ", and normals need three columns"));
+}
+
+template <typename Scalar>
 void Tessellator::Parts::evaluate(ConstValuesRef control_values, bool limit, std::span<Scalar> out,
                                   std::span<Scalar> normals) const {
-  require_vertex_rows(control, control_values);
+  check_output(control_values, out, normals);
+  if (out.empty()) return;
+  if (!limit && is_one_step()) return refine_values(control, scheme, {}, control_values, out.data());
   const auto k = static_cast<int>(control_values.cols());
-  const auto wanted = static_cast<std::size_t>(layout.vertices) * static_cast<std::size_t>(k);
   const bool with_normals = !normals.empty();
-  if (out.size() != wanted || (with_normals && (k != 3 || normals.size() != wanted))) {
-    throw Error(ErrorCode::BadShape, "the tessellation has " + std::to_string(layout.vertices) + " vertices of " +
-                                         std::to_string(k) + " numbers; the output must have room for just these" +
-                                         (with_normals ? ", and normals need three columns" : ""));
-  }
-  if (wanted == 0) return;
   const Values stepped = first == nullptr ? Values() : first->apply(control_values);
   const Eigen::Ref<const Values, 0, Eigen::OuterStride<>> base_values =
       first == nullptr ? Eigen::Ref<const Values, 0, Eigen::OuterStride<>>(control_values)
                        : Eigen::Ref<const Values, 0, Eigen::OuterStride<>>(stepped);
-  const LevelValues values(pieces, base_values);
-  const PieceTables<Scalar>& positions = tables<Scalar>(limit ? TileValue::Limit : TileValue::Refined);
-  const PieceTables<Scalar>* tangent_u = with_normals ? &tables<Scalar>(TileValue::TangentU) : nullptr;
-  const PieceTables<Scalar>* tangent_v = with_normals ? &tables<Scalar>(TileValue::TangentV) : nullptr;
+  const LevelValues values(pieces(), base_values);
+  std::vector<const PieceTables<Scalar>*> kinds{&tables<Scalar>(limit ? TileValue::Limit : TileValue::Refined)};
+  if (with_normals) {
+    kinds.push_back(&tables<Scalar>(TileValue::TangentU));
+    kinds.push_back(&tables<Scalar>(TileValue::TangentV));
+  }
   const std::ptrdiff_t block = std::max<std::ptrdiff_t>(1, kPointsPerBlock / layout.faces_per_face);
   parallel_for(
       base().face_count(),
       [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-        GridFiller<Scalar> filler(pieces, positions, values);
+        GridFiller<Scalar> filler(pieces(), kinds, values);
+        std::vector<PieceGrid<Scalar>> grids(kinds.size(), PieceGrid<Scalar>(layout.steps, k));
         const GridWriter<Scalar> writer(base(), layout, out.data());
-        PieceGrid<Scalar> grid(layout.steps, k);
-        for (auto f = static_cast<Index>(begin); f < end; ++f) {
-          filler.fill(f, grid);
-          writer.write(f, grid);
-        }
-        if (!with_normals) return;
-        GridFiller<Scalar> filler_u(pieces, *tangent_u, values);
-        GridFiller<Scalar> filler_v(pieces, *tangent_v, values);
         const GridWriter<Scalar> normal_writer(base(), layout, normals.data());
-        PieceGrid<Scalar> other(layout.steps, k);
         for (auto f = static_cast<Index>(begin); f < end; ++f) {
-          filler_u.fill(f, grid);
-          filler_v.fill(f, other);
-          normals_of(grid, other);
-          normal_writer.write(f, grid);
+          filler.fill(f, grids);
+          writer.write(f, grids[0]);
+          if (!with_normals) continue;
+          normals_of(grids[1].plane(0), grids[1].plane(1), grids[1].plane(2), grids[2].plane(0), grids[2].plane(1),
+                     grids[2].plane(2), grids[1].plane_size());
+          normal_writer.write(f, grids[1]);
         }
       },
       block);
@@ -222,6 +236,7 @@ Tessellator::Tessellator(const Topology& topology, const Scheme& scheme, int lev
   if (levels < 1 || levels > 15) {
     throw Error(ErrorCode::BadArgument, "a tessellation has 1 to 15 levels, not " + std::to_string(levels));
   }
+  require_triangles(topology, scheme);
   parts_ = std::make_unique<Parts>(topology, scheme, levels);
 }
 

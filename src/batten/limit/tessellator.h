@@ -18,9 +18,9 @@
 
 namespace batten {
 
-/// Built once for a connectivity, evaluated again when control values move. Build O(H), evaluate O(output), threaded,
-/// the same bits for any number of threads. Memory: 80 bytes a base face, 100 a piece next to irregular ones. The
-/// topology must outlive it.
+/// Built once for a connectivity, evaluated again when control values move. Build O(H), at the first evaluation;
+/// evaluate O(output), threaded, the same bits for any number of threads. Memory: 120 bytes a base face, and about as
+/// much a piece next to irregular ones; for one level of refined points none. The topology must outlive it.
 class Tessellator {
  public:
   /// levels: 1 or more. Throws Error(NotTriangles, BadArgument, TooLarge).

@@ -13,6 +13,8 @@ enum class TileValue {
   TangentV
 };
 
+inline bool is_tangent(TileValue value) { return value == TileValue::TangentU || value == TileValue::TangentV; }
+
 /// Weights for a row of size + 1 points, size = 2^steps, of a curve patch with four control points: weight j of point i
 /// is at 4 i + j. The tensor product of two gives Catmull-Clark's patch. TangentV is not for curves. Exact but for the
 /// division by 6.

@@ -117,7 +117,7 @@ Buffer<std::uint8_t> Pieces::take(int level, const Buffer<Index>& faces, const s
   const bool last = level == levels_;
   const bool cells = last && rest_ == Rest::Cells;
   const Index corners = scheme_.kind == SchemeKind::Loop ? 3 : 4;
-  const std::size_t patch_size = scheme_.kind == SchemeKind::Loop ? kTrianglePatchSize : 16;
+  const std::size_t patch_size = scheme_.kind == SchemeKind::Loop ? kTrianglePatchSize : kQuadPatchSize;
   const std::size_t row_count = cells ? static_cast<std::size_t>(corners) : patch_size;
   const std::size_t first_row = rows_.size();
   rows_.resize(first_row + row_count * faces.size());

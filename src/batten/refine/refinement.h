@@ -30,10 +30,6 @@ class Refinement {
   Values apply(ConstValuesRef values, const Progress& progress = {}) const;
 
  private:
-  template <int K>
-  void apply_columns(const double* in, std::ptrdiff_t stride, Values& out, const Progress& progress) const;
-  double alpha(Index vertex) const { return vertex_alpha_.empty() ? scheme_.alpha : vertex_alpha_[vertex]; }
-
   const Topology& topology_;
   Scheme scheme_;
   std::vector<double> vertex_alpha_;

@@ -20,6 +20,7 @@ struct RegularPatch {
   std::array<Index, 16> rows;
 };
 
+inline constexpr int kQuadPatchSize = 16;
 inline constexpr int kTrianglePatchSize = 12;
 inline constexpr std::array<std::array<int, 2>, kTrianglePatchSize> kTriangleLattice{
     {{0, 0}, {1, 0}, {0, 1}, {0, -1}, {1, -1}, {2, -1}, {-1, 0}, {2, 0}, {-1, 1}, {1, 1}, {-1, 2}, {0, 2}}};

@@ -48,7 +48,7 @@ Index RingSteps::kind_of(const Topology& topology, const FaceRing& ring) {
     const Index side = quads ? kQuadSides[c] : kTriangleSides[c];
     if (finder.find(side, result.patch)) {
       result.kind = kPatch;
-      result.rows = rows_of(refined, result.patch.rows, quads ? 16 : kTrianglePatchSize);
+      result.rows = rows_of(refined, result.patch.rows, quads ? kQuadPatchSize : kTrianglePatchSize);
       continue;
     }
     FaceRing own;

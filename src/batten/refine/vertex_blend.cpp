@@ -69,6 +69,18 @@ Buffer<float> child_sharpness(const VertexRing& ring, CreaseMethod method) {
   return child_sharpness_of(ring.sharpness, method);
 }
 
+bool edge_stays_sharp(const Topology& topology, CreaseMethod method, Index edge) {
+  const float sharpness = topology.edge_sharpness(edge);
+  if (method == CreaseMethod::Uniform) return is_sharp(subdivided_sharpness(sharpness));
+  const Index h = topology.edge_half_edge(edge);
+  VertexRing ring;
+  for (const Index end : {topology.origin(h), topology.destination(h)}) {
+    gather_ring(topology, end, ring);
+    if (!is_sharp(subdivided_sharpness(sharpness, ring.sharpness, method))) return false;
+  }
+  return true;
+}
+
 VertexRule vertex_rule_of(const Topology& topology, const Scheme& scheme, Index vertex, VertexRing& ring) {
   gather_ring(topology, vertex, ring);
   return vertex_rule(vertex_sharpness(topology, scheme, vertex), ring.sharpness);

@@ -31,6 +31,9 @@ void gather_ring(const Topology& topology, Index vertex, VertexRing& ring);
 /// Sharpness of the children of the ring's edges at this vertex.
 Buffer<float> child_sharpness(const VertexRing& ring, CreaseMethod method);
 
+/// True where both halves of a semi-sharp edge are still sharp after a step.
+bool edge_stays_sharp(const Topology& topology, CreaseMethod method, Index edge);
+
 /// The rule at this vertex for an infinite number of levels to come, or in this step where it still fades.
 VertexRule vertex_rule_of(const Topology& topology, const Scheme& scheme, Index vertex, VertexRing& ring);
 
