@@ -5,6 +5,7 @@
 
 #include "batten/interpolate/interpolator.h"
 #include "batten/limit/limit_matrix.h"
+#include "batten/limit/nearest_point.h"
 #include "batten/mesh/check.h"
 #include "batten/mesh/primitives.h"
 #include "batten/mesh/repair.h"
@@ -37,6 +38,14 @@ std::vector<Named> operations(const io_tests::TemporaryFolder& folder) {
       {"limit positions", [](const Progress& progress) { interpolator.limit_matrix().apply(mesh.points, progress); }},
       {"limit normals",
        [](const Progress& progress) { limit_normals(topology, scheme, mesh.points, LimitMasks::Exact, progress); }},
+      {"nearest points, built",
+       [](const Progress& progress) { NearestPoints(topology, scheme, mesh.points, progress); }},
+      {"nearest points, found",
+       [](const Progress& progress) {
+         static const NearestPoints nearest(topology, scheme, mesh.points);
+         std::vector<NearestPoint> found(static_cast<std::size_t>(mesh.vertex_count()));
+         nearest.nearest(mesh.points, found, progress);
+       }},
       {"interpolator", [](const Progress& progress) { Interpolator(topology, scheme, {}, progress); }},
       {"solve", [](const Progress& progress) { interpolator.solve(mesh.points, progress); }},
       {"interpolate", [](const Progress& progress) { interpolate(mesh, {}, progress); }}};

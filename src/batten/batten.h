@@ -5,6 +5,7 @@
 #include "batten/io/io.h"
 #include "batten/limit/limit_matrix.h"
 #include "batten/limit/limit_surface.h"
+#include "batten/limit/nearest_point.h"
 #include "batten/limit/surface_mesh.h"
 #include "batten/limit/tessellator.h"
 #include "batten/mesh/check.h"

@@ -139,6 +139,21 @@ TEST(LimitSurface, HasTheDerivativesOfItsPoints) {
   });
 }
 
+/// Where u + v = 1 rounding may put a place outside every part of the face.
+TEST(LimitSurface, HasNoJumpsAlongATrianglesThirdSide) {
+  const Mesh mesh = test::jittered(octahedron(), 0.05, 7);
+  const Topology topology(mesh);
+  const LimitSurface surface(topology, scheme_of(SchemeKind::Loop), mesh.points);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int i = 0; i < 2000; ++i) {
+    const double v = unit(random);
+    const double u = 1.0 - v;
+    const Eigen::Vector3d on_side = surface.jet({i % 8, u, v}).point;
+    EXPECT_LE((surface.jet({i % 8, u * (1.0 - 1e-9), v * (1.0 - 1e-9)}).point - on_side).norm(), 1e-7);
+  }
+}
+
 /// At an extraordinary vertex the tangent plane is what the planes nearby tend to.
 TEST(LimitSurface, HasATangentPlaneAtExtraordinaryVertices) {
   for (const Index valence : {3, 4, 5, 6, 7, 8, 12, 64, 360}) {

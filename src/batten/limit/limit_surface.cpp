@@ -129,21 +129,24 @@ struct LimitSurface::Parts {
     const double steps_per_side = 1 << kLevels;
     const double x = place.u * steps_per_side;
     const double y = place.v * steps_per_side;
-    for (;; ++piece) {
-      u = (x - piece->x) / piece->size;
-      v = (y - piece->y) / piece->size;
-      if (piece->turned) {
-        u = -u;
-        v = -v;
-      }
-      const bool inside = u >= 0.0 && v >= 0.0 && (quads() ? u <= 1.0 && v <= 1.0 : u + v <= 1.0);
-      if (inside) return *piece;
-      if (piece + 1 == pieces.end(place.face)) break;
+    // Rounding on a line between triangles may leave a place outside all of them: the nearest one will do.
+    const Piece* nearest = piece;
+    double least_outside = std::numeric_limits<double>::infinity();
+    for (; piece != pieces.end(place.face); ++piece) {
+      const double along = (piece->turned ? piece->x - x : x - piece->x) / piece->size;
+      const double across = (piece->turned ? piece->y - y : y - piece->y) / piece->size;
+      const double beyond = quads() ? std::max(along, across) - 1.0 : along + across - 1.0;
+      const double outside = std::max({-along, -across, beyond, 0.0});
+      if (outside >= least_outside) continue;
+      least_outside = outside;
+      nearest = piece;
+      u = along;
+      v = across;
+      if (outside == 0.0) break;
     }
-    // Rounding on the line between two triangles: the last one will do.
     u = std::clamp(u, 0.0, 1.0);
     v = std::clamp(v, 0.0, quads() ? 1.0 : 1.0 - u);
-    return *piece;
+    return *nearest;
   }
 
   Jet jet(const SurfacePlace& place, Workspace& work) const;
