@@ -4,6 +4,7 @@
 
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
+#include "batten/refine/refined_mesh.h"
 #include "support/shapes.h"
 #include "support/tessellation.h"
 
@@ -140,6 +141,85 @@ TEST(Tessellator, GivesNothingForNothing) {
   const Tessellation<double> points = tessellate<double>(topology, Scheme(), mesh.points, 3);
   EXPECT_EQ(points.points, Buffer<double>({0, 1, 2, 3, 4, 5}));
   EXPECT_TRUE(points.faces.empty());
+}
+
+/// Two rows a vertex, a seam where neighbours take different ones, and one face without any.
+Attribute seamed(const Mesh& mesh) {
+  Attribute uv{"uv", Values::Random(2 * mesh.vertex_count(), 2), Buffer<Index>(mesh.face_vertices.size())};
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    for (Index c = mesh.face_offsets[f]; c < mesh.face_offsets[f + 1]; ++c) {
+      uv.corner_rows[c] = f == 1 ? -1 : 2 * mesh.face_vertices[c] + (f % 3 == 0 ? 1 : 0);
+    }
+  }
+  return uv;
+}
+
+/// A face by its corners' places, and what stands at them: sorted, so that order does not matter.
+using CornerValues = std::vector<std::array<double, 5>>;
+
+template <typename Rows>
+CornerValues corner_values(const Rows& points, const Index* vertices, const Attribute& uv, const Index* rows,
+                           Index size) {
+  CornerValues face;
+  for (Index c = 0; c < size; ++c) {
+    const bool has = rows[c] >= 0;
+    face.push_back({points(vertices[c], 0), points(vertices[c], 1), points(vertices[c], 2),
+                    has ? uv.values(rows[c], 0) : -9.0, has ? uv.values(rows[c], 1) : -9.0});
+    for (double& number : face.back()) number = std::round(1e9 * number);
+  }
+  std::sort(face.begin(), face.end());
+  return face;
+}
+
+std::vector<CornerValues> all_corner_values(const Values& points, const Buffer<Index>& faces, const Attribute& uv,
+                                            Index size) {
+  std::vector<CornerValues> all;
+  for (std::size_t c = 0; c < faces.size(); c += static_cast<std::size_t>(size)) {
+    all.push_back(corner_values(points, &faces[c], uv, &uv.corner_rows[c], size));
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+std::size_t distinct(Buffer<Index> rows) {
+  std::sort(rows.begin(), rows.end());
+  return static_cast<std::size_t>(std::unique(rows.begin(), rows.end()) - rows.begin());
+}
+
+TEST(Tessellator, CarriesCornersAsRefinementDoesLevelByLevel) {
+  for (const SchemeKind kind : {SchemeKind::CatmullClark, SchemeKind::Loop}) {
+    for (const test::NamedMesh& sample : test::sample_meshes()) {
+      if ((kind == SchemeKind::Loop && !all_triangles(sample.mesh)) || sample.mesh.face_count() < 3) continue;
+      SCOPED_TRACE(sample.name);
+      Mesh mesh = test::jittered(sample.mesh, 0.05, 7);
+      mesh.attributes = {seamed(mesh)};
+      mesh.holes = {2};
+      const Topology topology(mesh);
+      constexpr int kLevels = 3;
+      const Tessellator tessellator(topology, scheme_of(kind), kLevels);
+      const Index size = tessellator.face_size();
+      Values points(tessellator.vertex_count(), 3);
+      tessellator.refined<double>(mesh.points, {points.data(), static_cast<std::size_t>(points.size())});
+      Buffer<Index> faces(static_cast<std::size_t>(tessellator.face_count()) * static_cast<std::size_t>(size));
+      tessellator.faces(faces);
+      const Attribute ours = tessellator.at_corners(mesh.attributes[0]);
+      ASSERT_EQ(ours.corner_rows.size(), faces.size());
+
+      const RefinedMesh refined = refine_mesh(topology, scheme_of(kind), mesh, kLevels);
+      Buffer<Index> kept;
+      Attribute theirs{"uv", refined.mesh.attributes[0].values, {}};
+      for (Index f = 0; f < refined.topology.face_count(); ++f) {
+        if (refined.topology.is_hole(f)) continue;
+        for (Index h = refined.topology.face_begin(f); h < refined.topology.face_end(f); ++h) {
+          kept.push_back(refined.topology.origin(h));
+          theirs.corner_rows.push_back(refined.mesh.attributes[0].corner_rows[h]);
+        }
+      }
+      EXPECT_TRUE(all_corner_values(points, faces, ours, size) ==
+                  all_corner_values(refined.mesh.points, kept, theirs, size));
+      EXPECT_EQ(distinct(ours.corner_rows), distinct(theirs.corner_rows)) << "seams differ";
+    }
+  }
 }
 
 }  // namespace

@@ -5,6 +5,13 @@
 
 namespace batten {
 
+/// A point of a face's grid: on half_edge, so many steps from its origin (0 <= from_origin < steps), or, with
+/// half_edge -1, inside.
+struct GridPoint {
+  Index half_edge;
+  Index from_origin;
+};
+
 /// Where the vertices of a refined base stand.
 struct TessellationLayout {
   int levels;
@@ -30,30 +37,35 @@ struct TessellationLayout {
     const std::int64_t rows = j - 1;
     return face_start + per_face * face + (quads ? rows * per_edge : rows * per_edge - rows * (rows + 1) / 2);
   }
-  /// The point (i, j) of a face's grid.
+  GridPoint locate(const Topology& base, Index face, Index i, Index j) const;
+  /// The vertex at the point (i, j) of a face's grid.
   Index vertex(const Topology& base, Index face, Index i, Index j) const;
   /// Number of grid points in row j.
   Index row_length(Index j) const { return quads ? steps + 1 : steps + 1 - j; }
 };
 
-inline Index TessellationLayout::vertex(const Topology& base, Index face, Index i, Index j) const {
+inline GridPoint TessellationLayout::locate(const Topology& base, Index face, Index i, Index j) const {
+  const Index first = base.face_begin(face);
   const Index n = steps;
-  const auto on_edge = [&](Index corner, Index from_origin) {
-    const Index h = base.face_begin(face) + corner;
-    if (from_origin == 0) return base.origin(h);
-    const bool lower = base.edge_half_edge(base.edge(h)) == h;
-    return static_cast<Index>(edge_start + per_edge * base.edge(h) + (lower ? from_origin : n - from_origin) - 1);
-  };
-  if (j == 0 && i < n) return on_edge(0, i);
+  if (j == 0 && i < n) return {first, i};
   if (quads) {
-    if (i == n && j < n) return on_edge(1, j);
-    if (j == n && i > 0) return on_edge(2, n - i);
-    if (i == 0) return on_edge(3, n - j);
+    if (i == n && j < n) return {first + 1, j};
+    if (j == n && i > 0) return {first + 2, n - i};
+    if (i == 0) return {first + 3, n - j};
   } else {
-    if (i + j == n && j < n) return on_edge(1, j);
-    if (i == 0) return on_edge(2, n - j);
+    if (i + j == n && j < n) return {first + 1, j};
+    if (i == 0) return {first + 2, n - j};
   }
-  return static_cast<Index>(inside_face(face, j) + i - 1);
+  return {-1, 0};
+}
+
+inline Index TessellationLayout::vertex(const Topology& base, Index face, Index i, Index j) const {
+  const GridPoint at = locate(base, face, i, j);
+  if (at.half_edge < 0) return static_cast<Index>(inside_face(face, j) + i - 1);
+  if (at.from_origin == 0) return base.origin(at.half_edge);
+  const Index edge = base.edge(at.half_edge);
+  const bool lower = base.edge_half_edge(edge) == at.half_edge;
+  return static_cast<Index>(edge_start + per_edge * edge + (lower ? at.from_origin : steps - at.from_origin) - 1);
 }
 
 /// Copies what a face owns of its grid: inner points, an edge by the face of its lower half-edge, a vertex by the face

@@ -9,10 +9,13 @@
 #include <tuple>
 
 #include "batten/error.h"
+#include "batten/limit/corner_tessellation.h"
+#include "batten/limit/grid_faces.h"
 #include "batten/limit/piece_grid.h"
 #include "batten/limit/tessellation_layout.h"
 #include "batten/parallel/parallel.h"
 #include "batten/refine/child_topology.h"
+#include "batten/refine/refined_mesh.h"
 #include "batten/refine/refined_values.h"
 
 namespace batten {
@@ -117,62 +120,13 @@ template <typename Scalar>
   }
 }
 
-/// The faces of one grid after the other, from the numbers of two rows of points.
-class RowNumbers {
- public:
-  RowNumbers(const Topology& base, const TessellationLayout& layout)
-      : base_(base), layout_(layout), low_(static_cast<std::size_t>(layout.steps) + 1), high_(low_.size()) {}
+/// Vertices' numbers, as GridFaces wants them.
+struct VertexNumbering {
+  const Topology& base;
+  const TessellationLayout& layout;
 
-  void write_face(Index face, Index* to) {
-    number(face, 0, low_);
-    for (Index j = 0; j < layout_.steps; ++j) {
-      number(face, j + 1, high_);
-      to = layout_.quads ? write_quads(to) : write_triangles(layout_.steps - j, to);
-      std::swap(low_, high_);
-    }
-  }
-
- private:
-  void number(Index face, Index j, Buffer<Index>& row) const {
-    const Index last = layout_.row_length(j) - 1;
-    const bool inner = j > 0 && j < layout_.steps;
-    row[0] = layout_.vertex(base_, face, 0, j);
-    row[last] = layout_.vertex(base_, face, last, j);
-    const auto first = static_cast<Index>(inner ? layout_.inside_face(face, j) : 0);
-    for (Index i = 1; i < last; ++i) row[i] = inner ? first + i - 1 : layout_.vertex(base_, face, i, j);
-  }
-
-  Index* write_quads(Index* __restrict to) const {
-    for (Index i = 0; i < layout_.steps; ++i) {
-      to[4 * i] = low_[i];
-      to[4 * i + 1] = low_[i + 1];
-      to[4 * i + 2] = high_[i + 1];
-      to[4 * i + 3] = high_[i];
-    }
-    return to + 4 * layout_.steps;
-  }
-
-  /// `count` upright triangles with the turned ones between them.
-  Index* write_triangles(Index count, Index* __restrict to) const {
-    for (Index i = 0; i + 1 < count; ++i) {
-      to[6 * i] = low_[i];
-      to[6 * i + 1] = low_[i + 1];
-      to[6 * i + 2] = high_[i];
-      to[6 * i + 3] = high_[i + 1];
-      to[6 * i + 4] = high_[i];
-      to[6 * i + 5] = low_[i + 1];
-    }
-    to += 6 * (count - 1);
-    to[0] = low_[count - 1];
-    to[1] = low_[count];
-    to[2] = high_[count - 1];
-    return to + 3;
-  }
-
-  const Topology& base_;
-  const TessellationLayout& layout_;
-  Buffer<Index> low_;
-  Buffer<Index> high_;
+  Index vertex(Index face, Index i, Index j) const { return layout.vertex(base, face, i, j); }
+  std::int64_t inside_face(Index face, Index j) const { return layout.inside_face(face, j); }
 };
 
 }  // namespace
@@ -278,13 +232,21 @@ void Tessellator::faces(std::span<Index> out) const {
   parallel_for(
       base.face_count(),
       [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-        RowNumbers numbers(base, layout);
+        const VertexNumbering numbering{base, layout};
+        GridFaces grids(layout, numbering);
         for (auto f = static_cast<Index>(begin); f < end; ++f) {
           const Index rank = parts_->face_rank.empty() ? f : parts_->face_rank[f];
-          if (rank >= 0) numbers.write_face(f, out.data() + static_cast<std::size_t>(rank) * per_face);
+          if (rank >= 0) grids.write(f, out.data() + static_cast<std::size_t>(rank) * per_face);
         }
       },
       block);
+}
+
+Attribute Tessellator::at_corners(const Attribute& attribute) const {
+  const Parts& parts = *parts_;
+  if (parts.first == nullptr) return tessellate_corners(parts.base(), parts.layout, parts.face_rank, attribute);
+  const Attribute stepped = refine_at_corners(parts.control, parts.scheme.kind, attribute);
+  return tessellate_corners(parts.base(), parts.layout, parts.face_rank, stepped);
 }
 
 template <typename Scalar>

@@ -13,6 +13,7 @@
 #include <memory>
 #include <span>
 
+#include "batten/mesh/mesh.h"
 #include "batten/mesh/topology.h"
 #include "batten/scheme/scheme.h"
 
@@ -44,6 +45,10 @@ class Tessellator {
 
   /// out: face_count() * face_size() vertices, counter-clockwise.
   void faces(std::span<Index> out) const;
+
+  /// An attribute at the corners of the control mesh, texture coordinates above all, at the corners of faces(): the
+  /// same values as refine_at_corners() gives level by level. Throws Error(BadShape, TooLarge).
+  Attribute at_corners(const Attribute& attribute) const;
 
   /// The grid of a base face, for those who attach things to it: base() has its faces, steps() its side, vertex() its
   /// points, 0 <= i, j <= steps().
