@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "batten/interpolate/interpolator.h"
+#include "batten/limit/adaptive.h"
 #include "batten/limit/limit_matrix.h"
 #include "batten/limit/nearest_point.h"
 #include "batten/mesh/check.h"
@@ -47,6 +48,13 @@ std::vector<Named> operations(const io_tests::TemporaryFolder& folder) {
          nearest.nearest(mesh.points, found, progress);
        }},
       {"interpolator", [](const Progress& progress) { Interpolator(topology, scheme, {}, progress); }},
+      {"adaptive",
+       [](const Progress& progress) {
+         AdaptiveOptions options;
+         options.chord = 1e-3;
+         options.angle = 5.0;
+         tessellate_adaptively(topology, scheme, mesh.points, options, progress);
+       }},
       {"solve", [](const Progress& progress) { interpolator.solve(mesh.points, progress); }},
       {"interpolate", [](const Progress& progress) { interpolate(mesh, {}, progress); }}};
   for (const char* name : {"m.obj", "m.ply", "m.off", "m.stl"}) {

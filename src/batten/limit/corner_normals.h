@@ -1,0 +1,20 @@
+/// \file Normals of an adaptive mesh's corners, each on its own side of creases.
+#pragma once
+#include "batten/limit/limit_surface.h"
+#include "batten/refine/cell_faces.h"
+
+namespace batten {
+
+/// Outward; zero where the tangents are parallel.
+Eigen::Vector3d unit_normal(const Jet& jet);
+
+/// As Attribute has it.
+struct CornerNormals {
+  Values rows;                ///< the vertices', then those of corners that differ
+  Buffer<Index> corner_rows;  ///< one a corner, or empty where none differs
+};
+/// vertex_normals: a row a vertex.
+CornerNormals corner_normals(const LimitSurface& surface, const CellFaces& faces, const CellForest& forest,
+                             const Points& vertex_normals);
+
+}  // namespace batten
