@@ -81,6 +81,12 @@ struct RenderArguments {
   bool points = false;   ///< draw the vertices' limit positions as small spheres
 };
 
+struct DistanceArguments {
+  CommonArguments common;  ///< input: the surface
+  PictureArguments picture;
+  std::string scan;
+};
+
 struct RepairArguments {
   CommonArguments common;
   RepairOptions options;
@@ -92,5 +98,6 @@ int run_subdivide(const SubdivideArguments& arguments);
 int run_convert(const CommonArguments& arguments);
 int run_repair(const RepairArguments& arguments);
 int run_render(const RenderArguments& arguments);
+int run_distance(const DistanceArguments& arguments);
 
 }  // namespace batten::cli

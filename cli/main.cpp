@@ -70,8 +70,9 @@ void add_repair_flag(CLI::App& verb, CommonArguments& common) {
   verb.add_flag("--repair", common.repair, "mend the mesh first and say what was changed (see batten repair)");
 }
 
-void add_input(CLI::App& verb, CommonArguments& common) {
-  verb.add_option("INPUT", common.input, "mesh file: .obj .ply .off .stl .xyz, or - for standard input")->required();
+/// For what is called INPUT, unless the verb has a better word.
+void add_input(CLI::App& verb, CommonArguments& common, const std::string& name = "INPUT") {
+  verb.add_option(name, common.input, "mesh file: .obj .ply .off .stl .xyz, or - for standard input")->required();
   verb.add_option("--input-format", common.input_format, "the input's type where its name does not tell")
       ->option_text("obj|ply|off|stl|xyz");
   verb.add_option("--threads", common.threads, "use at most so many threads (the result is the same)")
@@ -177,6 +178,7 @@ struct Verbs {
   SubdivideArguments subdivide;
   CommonArguments convert;
   RenderArguments render;
+  DistanceArguments distance;
   RepairArguments repair;
 };
 
@@ -240,6 +242,20 @@ void add_render(CLI::App& app, RenderArguments& arguments, int& status) {
   verb.callback([&] { status = run_render(arguments); });
 }
 
+void add_distance(CLI::App& app, DistanceArguments& arguments, int& status) {
+  CLI::App& verb = *app.add_subcommand("distance", "how far points lie from the limit surface of a mesh");
+  verb.add_option("SCAN", arguments.scan, "its vertices are measured: .obj .ply .off .stl .xyz")->required();
+  add_input(verb, arguments.common, "SURFACE");
+  verb.add_option("-o,--output", arguments.common.output,
+                  "write the scan with each point's distance, as the property \"distance\"")
+      ->check(has_extension({".ply"}))
+      ->option_text("FILE.ply");
+  verb.add_flag("--ascii", arguments.common.ascii, "PLY as text");
+  add_surface(verb, arguments.common);
+  add_picture(verb, arguments.picture);
+  verb.callback([&] { status = run_distance(arguments); });
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Batten: smooth subdivision surfaces through data.", "batten");
   app.set_version_flag("--version", std::string("batten ") + BATTEN_VERSION);
@@ -251,6 +267,7 @@ int run(int argc, char** argv) {
   add_interpolate(app, verbs.interpolate, status);
   add_subdivide(app, verbs.subdivide, status);
   add_render(app, verbs.render, status);
+  add_distance(app, verbs.distance, status);
   add_repair(app, verbs.repair, status);
   CLI::App& info = *app.add_subcommand("info", "what a mesh is made of, and whether a surface can be made of it");
   add_input(info, verbs.info);

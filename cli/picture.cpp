@@ -131,6 +131,12 @@ Scene scene_of(const Subject& subject, Coloring coloring, bool quiet) {
     if (coloring == Coloring::Sharpness) scene.scale.low = 0.0;
   }
   scene.markers = subject.markers;
+  if (subject.numbers.size() > 0) {
+    const bool at_markers = subject.markers.rows() > 0;
+    (at_markers ? scene.marker_scalars : scene.scalars) = subject.numbers;
+    scene.scale = fit_color_scale(subject.numbers, subject.numbers_scale);
+    if (at_markers) scene.surface_color = {0.42F, 0.42F, 0.41F};  // leaves colours to the numbers
+  }
   if (subject.draw_control) scene.lines = subject.control;
   return scene;
 }
@@ -176,12 +182,14 @@ void draw(const Subject& subject, const PictureArguments& arguments, bool quiet)
                    arguments.coloring == Coloring::Zebra ? Shading::Zebra : Shading::Plain});
   RenderOptions options;
   options.samples = arguments.samples;
+  options.marker_radius = subject.marker_radius;
   options.view = arguments.view;
   options.direction = arguments.direction;
   options.style.transparent = arguments.transparent;
   options.height = arguments.height > 0 ? arguments.height : picture_height(arguments);
   Panel bar;
-  if (is_scalar(arguments.coloring)) bar.picture = draw_color_bar(after.scale, options.height, options.style);
+  if (after.scalars.size() > 0 || after.marker_scalars.size() > 0)
+    bar.picture = draw_color_bar(after.scale, options.height, options.style);
   options.width = (arguments.width - bar.picture.width) / static_cast<int>(shots.size());
   if (options.width < 1) {
     throw Error(ErrorCode::BadArgument, "the picture is too narrow for its colour bar, which takes " +

@@ -8,6 +8,7 @@
 #include "batten/limit/limit_surface.h"
 #include "batten/limit/nearest_point.h"
 #include "batten/limit/surface_mesh.h"
+#include "batten/limit/surface_side.h"
 #include "batten/limit/tessellator.h"
 #include "batten/mesh/check.h"
 #include "batten/mesh/mesh.h"

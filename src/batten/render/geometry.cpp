@@ -141,6 +141,10 @@ void check_scene(const Scene& scene) {
     throw Error(ErrorCode::BadShape, "the scalars must be empty or one number a vertex of the surface (" +
                                          std::to_string(scene.surface.vertex_count()) + "), not " +
                                          std::to_string(scene.scalars.size()));
+  if (scene.marker_scalars.size() > 0 && scene.marker_scalars.size() != scene.markers.rows())
+    throw Error(ErrorCode::BadShape, "the markers' scalars must be empty or one number a marker (" +
+                                         std::to_string(scene.markers.rows()) + "), not " +
+                                         std::to_string(scene.marker_scalars.size()));
 }
 
 Frame frame_of(const std::vector<const Scene*>& scenes) {

@@ -130,7 +130,9 @@ Tracer::Tracer(const Scene& scene, const RenderOptions& options, const Triangles
       back_color_(to_vec(scene.back_color)),
       marker_color_(to_vec(scene.marker_color)),
       line_color_(to_vec(scene.line_color)) {
-  if (!triangles.levels.empty()) {
+  for (const double value : scene.marker_scalars)
+    marker_levels_.push_back(static_cast<float>(scene.scale.position(value)));
+  if (!triangles.levels.empty() || !marker_levels_.empty()) {
     for (int i = 0; i < kLevelColors; ++i)
       level_colors_.push_back(to_vec(map_color(scene.scale.map, i / (kLevelColors - 1.0))));
     level_colors_.push_back(to_vec(map_color(scene.scale.map, std::numeric_limits<double>::quiet_NaN())));
@@ -237,7 +239,7 @@ void Tracer::take_hit(Square& square, std::size_t sample, const Vec& towards, co
   const Surfel surfel =
       part == Part::Surface
           ? surface_surfel(rays.hit.primID[lane], rays.hit.u[lane], rays.hit.v[lane], towards)
-          : overlay_surfel(part, camera_.eye + rays.ray.tfar[lane] * towards,
+          : overlay_surfel(part, rays.hit.primID[lane], camera_.eye + rays.ray.tfar[lane] * towards,
                            Vec(rays.hit.Ng_x[lane], rays.hit.Ng_y[lane], rays.hit.Ng_z[lane]).normalized());
   const int pixel = square.pixel(sample, samples_);
   const Light light = reflect(lamps_, surfel, towards);
@@ -363,7 +365,9 @@ Vec Tracer::level_color(float level) const {
   return level_colors_[static_cast<std::size_t>(place)];
 }
 
-Surfel Tracer::overlay_surfel(Part part, const Vec& position, const Vec& normal) const {
+Surfel Tracer::overlay_surfel(Part part, unsigned number, const Vec& position, const Vec& normal) const {
+  if (part == Part::Markers && !marker_levels_.empty())
+    return {position, position, normal, normal, kDataAlbedo * level_color(marker_levels_[number]), kDataGloss};
   return {position, position, normal, normal, part == Part::Markers ? marker_color_ : line_color_};
 }
 

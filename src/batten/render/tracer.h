@@ -30,7 +30,7 @@ class Tracer {
   int pattern_row(const Square& square, std::size_t sample) const;
   Surfel surface_surfel(unsigned triangle, float u, float v, const Vec& towards) const;
   Vec level_color(float level) const;
-  Surfel overlay_surfel(Part part, const Vec& position, const Vec& normal) const;
+  Surfel overlay_surfel(Part part, unsigned number, const Vec& position, const Vec& normal) const;
 
   const Triangles& triangles_;
   const Rays& rays_;
@@ -45,6 +45,7 @@ class Tracer {
   Vec back_color_;
   Vec marker_color_;
   Vec line_color_;
+  std::vector<float> marker_levels_;      ///< positions on the colour scale, or empty
   std::vector<Vec> level_colors_;         ///< of the colour scale, from its low end to its high end; then NaN's
   std::vector<Eigen::Vector2f> offsets_;  ///< of a pixel's samples, in pixels
   std::vector<Eigen::Vector2f> pattern_;  ///< of all samples of a block of pixels
