@@ -59,6 +59,15 @@ class Sweeps {
 /// Eigen's conjugate gradients with a diagonal preconditioner, triplet assembly included; returns the largest miss.
 double eigen_conjugate_gradients(const Subject& subject, double relative_tolerance);
 
+/// The most memory that the process holds while the work runs, less what it held before, in bytes.
+double peak_growth(const std::function<void()>& work);
+
+/// The number after "key" in a small text file. Throws std::runtime_error where it isn't there.
+double number_after(const std::string& path, const std::string& key);
+
+/// Replaces what `./batten bench COMMAND` said before in the page of record, and leaves the other parts alone.
+void write_part(const std::string& page, const std::string& command, const std::string& text);
+
 /// The processor, the compiler and the copy bandwidth.
 std::string machine();
 

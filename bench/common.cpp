@@ -1,9 +1,13 @@
 /// What all benches share.
+#include <malloc.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <map>
 #include <sstream>
+#include <stdexcept>
 
 #include "batten/parallel/parallel.h"
 #include "bench/bench.h"
@@ -49,6 +53,47 @@ std::string number(double value, int digits) {
   char text[64];
   std::snprintf(text, sizeof text, "%.*g", digits, value);
   return text;
+}
+
+double number_after(const std::string& path, const std::string& key) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  const std::size_t place = text.str().find(key);
+  if (place == std::string::npos) throw std::runtime_error(path + " says nothing of " + key);
+  return std::stod(text.str().substr(place + key.size()));
+}
+
+double peak_growth(const std::function<void()>& work) {
+  malloc_trim(0);                                 // what was freed before is not there to be used again
+  std::ofstream("/proc/self/clear_refs") << "5";  // the high-water mark starts from here
+  const double before = number_after("/proc/self/status", "VmRSS:");
+  work();
+  return 1024.0 * (number_after("/proc/self/status", "VmHWM:") - before);
+}
+
+void write_part(const std::string& page, const std::string& command, const std::string& text) {
+  const auto mark = [](const std::string& of) {
+    return "<!-- ./batten bench" + (of.empty() ? "" : " " + of) + " -->\n";
+  };
+  const std::string head =
+      "# Performance\n\nWritten by `./batten bench` and `./batten bench peers`: medians, the rivals in turn in the "
+      "same "
+      "process.\nRatios count, single timings on a shared machine do not.\n\n";
+  std::map<std::string, std::string> parts;
+  std::ifstream file(page);
+  std::string* part = nullptr;
+  for (std::string line; std::getline(file, line);) {
+    if (line.rfind("<!-- ./batten bench", 0) == 0) {
+      part = &parts[line + "\n"];
+    } else if (part != nullptr) {
+      *part += line + "\n";
+    }
+  }
+  parts[mark(command)] = text;
+  std::ofstream out(page);
+  out << head;
+  for (const auto& [marked, said] : parts) out << marked << said;
 }
 
 std::string machine() {

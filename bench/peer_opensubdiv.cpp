@@ -76,18 +76,21 @@ std::vector<PeerWork> opensubdiv_points(const Mesh& mesh, const Scheme& scheme, 
   return {{"OpenSubdiv, PrimvarRefiner",
            [refiner, control, out, levels] { interpolate(*refiner, levels, control->data(), out->data()); }},
           {"OpenSubdiv, cascaded stencils", [refiner, stencils, all, levels] {
-             // Level by level, since a level's stencils refer to the one before.
+             // A level's stencils count from the first point of the level before. The evaluator's own start is left at
+             // 0: for four floats a point, 3.5 adds it twice.
              int first = 0;
+             int before = 0;
              for (int level = 1; level <= levels; ++level) {
-               const int end = first + refiner->GetLevel(level).GetNumVertices();
-               const int start = refiner->GetLevel(0).GetNumVertices();
-               const Osd::BufferDescriptor from(0, 4, 4);
-               const Osd::BufferDescriptor to((start + first) * 4, 4, 4);
+               const int count = refiner->GetLevel(level).GetNumVertices();
+               const int start = refiner->GetLevel(0).GetNumVertices() + first;
+               const auto skipped = stencils->GetOffsets()[static_cast<std::size_t>(first)];
                float* data = all->front().x;
-               Osd::CpuEvaluator::EvalStencils(data, from, data, to, stencils->GetSizes().data(),
-                                               stencils->GetOffsets().data(), stencils->GetControlIndices().data(),
-                                               stencils->GetWeights().data(), first, end);
-               first = end;
+               Osd::CpuEvaluator::EvalStencils(
+                   data, Osd::BufferDescriptor(4 * before, 4, 4), data, Osd::BufferDescriptor(4 * start, 4, 4),
+                   stencils->GetSizes().data() + first, stencils->GetOffsets().data(),
+                   stencils->GetControlIndices().data() + skipped, stencils->GetWeights().data() + skipped, 0, count);
+               before = start;
+               first += count;
              }
            }}};
 }

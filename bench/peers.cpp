@@ -1,4 +1,5 @@
-/// The tessellator against other libraries on the same work, in turn, in one run. Writes docs/peers.md.
+/// The tessellator against other libraries on the same work, in turn, in one run. Writes its part of
+/// docs/performance.md.
 #include "bench/peers.h"
 
 #include <cstdio>
@@ -66,6 +67,11 @@ struct Reused {
   }
 };
 
+/// Of points and faces as they come out, not counting either's way of getting there.
+double output_bytes(const Tessellator& tessellator) {
+  return 12.0 * tessellator.vertex_count() + 4.0 * tessellator.face_size() * tessellator.face_count();
+}
+
 std::string milliseconds(double seconds) { return number(1e3 * seconds, 3); }
 
 /// From an index list in fresh memory; ours first, then each peer with how many times longer it takes.
@@ -81,7 +87,8 @@ void add_fresh(MarkdownTable& table, const Case& which) {
                                }}};
   works.push_back(opensubdiv_refine(mesh, scheme, which.levels));
   if (!tagged) {
-    for (const auto& peers : {openmesh_refine(mesh, scheme, which.levels), cgal_refine(mesh, scheme, which.levels)}) {
+    for (const auto& peers : {openmesh_refine(mesh, scheme, which.levels), cgal_refine(mesh, scheme, which.levels),
+                              vtk_refine(mesh, scheme, which.levels)}) {
       works.insert(works.end(), peers.begin(), peers.end());
     }
   }
@@ -93,10 +100,14 @@ void add_fresh(MarkdownTable& table, const Case& which) {
     others += (i > 1 ? ", " : "") + works[i].name + " " + milliseconds(seconds[i]) + " (" +
               number(seconds[i] / seconds[0], 3) + "x)";
   }
+  const Topology topology(mesh);
+  const double output = output_bytes(Tessellator(topology, scheme, which.levels));
+  const std::string memory =
+      number(peak_growth(works[0].work) / output, 3) + ", " + number(peak_growth(works[1].work) / output, 3);
   table.add({which.model + (which.refined > 0 ? ", refined " + std::to_string(which.refined) + "x" : ""),
              std::string(scheme.kind == SchemeKind::Loop ? "Loop" : "Catmull-Clark") + (tagged ? ", creases" : ""),
              std::to_string(mesh.face_count()), std::to_string(which.levels), number(1e-6 * static_cast<double>(faces)),
-             milliseconds(seconds[0]), others});
+             milliseconds(seconds[0]), others, memory});
 }
 
 /// Into memory that is there already, connectivity kept.
@@ -124,7 +135,8 @@ void add_reused(MarkdownTable& table, const Case& which) {
 }  // namespace
 
 std::string peers_section() {
-  MarkdownTable fresh({"mesh", "scheme", "faces", "levels", "million faces out", "Batten, ms", "others, ms"});
+  MarkdownTable fresh({"mesh", "scheme", "faces", "levels", "million faces out", "Batten, ms", "others, ms",
+                       "peak memory, of the output: Batten, OpenSubdiv"});
   for (const Case& which : {Case{"spot-quads", 0, 5}, Case{"armorguy", 0, 4}, Case{"t-rex", 0, 4}, Case{"beast", 0, 3},
                             Case{"beast", 2, 1}, Case{"spot", 0, 4}}) {
     add_fresh(fresh, which);
@@ -154,10 +166,10 @@ int main(int argc, char** argv) {
     return 1;
   }
   const std::string tunables = std::getenv("GLIBC_TUNABLES") == nullptr ? "" : std::getenv("GLIBC_TUNABLES");
-  const std::string page = (tunables.find("hugetlb=1") != std::string::npos
-                                ? "## With huge pages for everyone (GLIBC_TUNABLES=glibc.malloc.hugetlb=1)\n\n"
-                                : "## As everyone comes\n\n") +
-                           machine() + "\n" + peers_section() + "\n";
-  std::printf("%s", page.c_str());
-  if (argc > 1) std::ofstream(argv[1], std::ios::app) << page;
+  const bool huge = tunables.find("hugetlb=1") != std::string::npos;
+  const std::string part = std::string("## Refinement beside other libraries") +
+                           (huge ? ", with huge pages for everyone (GLIBC_TUNABLES=glibc.malloc.hugetlb=1)" : "") +
+                           "\n\n" + machine() + "\n" + peers_section() + "\n";
+  std::printf("%s", part.c_str());
+  if (argc > 1) write_part(argv[1], huge ? "peers, huge pages" : "peers", part);
 }

@@ -23,5 +23,7 @@ std::vector<PeerWork> opensubdiv_points(const Mesh& mesh, const Scheme& scheme, 
 /// Empty where the library was not there at build time. Catmull-Clark without tags, or Loop.
 std::vector<PeerWork> openmesh_refine(const Mesh& mesh, const Scheme& scheme, int levels);
 std::vector<PeerWork> cgal_refine(const Mesh& mesh, const Scheme& scheme, int levels);
+/// The same, Loop only.
+std::vector<PeerWork> vtk_refine(const Mesh& mesh, const Scheme& scheme, int levels);
 
 }  // namespace batten::bench

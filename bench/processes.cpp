@@ -33,17 +33,6 @@ double run_process(const std::vector<std::string>& command) {
   });
 }
 
-/// The number after "key" in a small text file: what a child process says of its own peak, since what the system counts
-/// for a forked child starts from its parent's.
-double number_after(const std::string& path, const std::string& key) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  const std::size_t place = text.str().find(key);
-  if (place == std::string::npos) throw std::runtime_error(path + " says nothing of " + key);
-  return std::stod(text.str().substr(place + key.size()));
-}
-
 }  // namespace
 
 int run_large(Index vertices) {

@@ -30,15 +30,12 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: batten_bench PAGE.md\n");
     return 2;
   }
-  std::string page =
-      "# Performance\n\nMade by `./batten bench`; medians, the rivals run in turn in the same process. "
-      "Ratios count, single timings on a shared machine do not.\n\n";
-  page += "Threads: " + std::to_string(batten::thread_count()) + ". " + machine() + "\n";
+  std::string page = "Threads: " + std::to_string(batten::thread_count()) + ". " + machine() + "\n";
   for (const auto& section :
        {topology_section, interpolation_section, growth_section, file_section, picture_section, process_section}) {
     page += section();
     std::fprintf(stderr, "%s", page.substr(page.rfind("\n## ")).c_str());
   }
-  std::ofstream(argv[1]) << page;
+  write_part(argv[1], "", page);
   return 0;
 }
