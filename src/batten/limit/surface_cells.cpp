@@ -41,10 +41,8 @@ FloatBox box_of(const std::vector<Vec4>& points) {
   Vec4 low = points[0];
   Vec4 high = points[0];
   for (const Vec4& point : points) {
-    for (int c = 0; c < 4; ++c) {
-      low[c] = point[c] < low[c] ? point[c] : low[c];
-      high[c] = point[c] > high[c] ? point[c] : high[c];
-    }
+    low = lower(low, point);
+    high = higher(high, point);
   }
   FloatBox box;
   for (int c = 0; c < 3; ++c) {
