@@ -99,8 +99,8 @@ NearestPoints::NearestPoints(const Topology& topology, const Scheme& scheme, Con
       throw Error(ErrorCode::BadArgument, "all faces are holes, so there is no surface to be near to");
     const Vec4& centre = cells.centre();
     parts_->centre = {centre[0], centre[1], centre[2]};
-    parts_->diagonal = std::sqrt(std::pow(box.high[0] - box.low[0], 2.0) + std::pow(box.high[1] - box.low[1], 2.0) +
-                                 std::pow(box.high[2] - box.low[2], 2.0));
+    const Eigen::Vector3d extent(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
+    parts_->diagonal = extent.norm() / cells.scale();
   };
   if (scheme.kind == SchemeKind::CatmullClark) {
     build(QuadNet());

@@ -29,7 +29,7 @@ NearestFound NearestSearch<Net>::find(const Vec4& query, double tolerance) {
   best_ = {};
   best_.squared = best_.least = cut_ = std::numeric_limits<double>::infinity();
   visits_ = 0;
-  const Vec4 from_centre = query - cells_.centre();
+  const Vec4 from_centre = (query - cells_.centre()) * cells_.scale();
   const std::array<float, 3> point{static_cast<float>(from_centre[0]), static_cast<float>(from_centre[1]),
                                    static_cast<float>(from_centre[2])};
   constexpr float kMore = 1.0F + 4.0F * std::numeric_limits<float>::epsilon();
@@ -37,7 +37,7 @@ NearestFound NearestSearch<Net>::find(const Vec4& query, double tolerance) {
   queue_.clear();
   cells_.tree().visit_near(point, std::numeric_limits<float>::infinity(), [&](Index place) {
     if (cut_ > 0.0) visit(place);
-    return cut_ > 0.0 ? static_cast<float>(best_.squared) * kMore : 0.0F;
+    return cut_ > 0.0 ? static_cast<float>(best_.squared * cells_.scale() * cells_.scale()) * kMore : 0.0F;
   });
   search_pending();
   best_.least = cut_ > 0.0 ? std::min(best_.least, best_.squared) : 0.0;
