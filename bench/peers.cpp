@@ -134,6 +134,20 @@ void add_reused(MarkdownTable& table, const Case& which) {
 
 }  // namespace
 
+std::string jets_section() {
+  MarkdownTable table({"mesh", "scheme", "faces", "Batten, ns", "Bfr, ns", "ratio"});
+  add_jets(table, "spot-quads", load({"spot-quads", 0, 0}), SchemeKind::CatmullClark);
+  add_jets(table, "beast, refined", load({"beast", 1, 0}), SchemeKind::CatmullClark);
+  add_jets(table, "fandisk, refined", load({"fandisk", 1, 0}), SchemeKind::CatmullClark);
+  add_jets(table, "spot", load({"spot", 0, 0}), SchemeKind::Loop);
+  add_jets(table, "nefertiti", load({"nefertiti", 0, 0}), SchemeKind::Loop);
+  return "Point, first and second derivatives at 200,000 random places, face by face, in doubles, one thread, "
+         "processor "
+         "time; surfaces made\nbeforehand. Next to extraordinary vertices Bfr has an approximation where ours is "
+         "exact.\n\n" +
+         table.text();
+}
+
 std::string peers_section() {
   MarkdownTable fresh({"mesh", "scheme", "faces", "levels", "million faces out", "Batten, ms", "others, ms",
                        "peak memory, of the output: Batten, OpenSubdiv"});
@@ -154,7 +168,7 @@ std::string peers_section() {
          fresh.text() +
          "\nInto memory that is there already, connectivity kept. OpenSubdiv's stencils as Debian builds them, on one "
          "thread,\nfour floats a point.\n\n" +
-         reused.text();
+         reused.text() + "\n" + jets_section();
 }
 
 }  // namespace batten::bench
@@ -164,6 +178,10 @@ int main(int argc, char** argv) {
   if (std::getenv("BATTEN_DATA") == nullptr) {
     std::fprintf(stderr, "set BATTEN_DATA to the folder of the test data, whose meshes these figures are about\n");
     return 1;
+  }
+  if (argc > 1 && std::string(argv[1]) == "--jets") {
+    std::printf("%s", jets_section().c_str());
+    return 0;
   }
   const std::string tunables = std::getenv("GLIBC_TUNABLES") == nullptr ? "" : std::getenv("GLIBC_TUNABLES");
   const bool huge = tunables.find("hugetlb=1") != std::string::npos;

@@ -26,4 +26,9 @@ std::vector<PeerWork> cgal_refine(const Mesh& mesh, const Scheme& scheme, int le
 /// The same, Loop only.
 std::vector<PeerWork> vtk_refine(const Mesh& mesh, const Scheme& scheme, int levels);
 
+class MarkdownTable;
+/// Rows of jets at random places beside OpenSubdiv's Bfr, in doubles, one thread, processor time: ns a jet. The mesh's
+/// faces are quads, or triangles for Loop.
+void add_jets(MarkdownTable& table, const std::string& name, const Mesh& mesh, SchemeKind kind);
+
 }  // namespace batten::bench

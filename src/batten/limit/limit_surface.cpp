@@ -1,13 +1,14 @@
 #include "batten/limit/limit_surface.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <string>
 
 #include "batten/error.h"
 #include "batten/limit/piece_grid.h"
+#include "batten/limit/ring_blocks.h"
 #include "batten/limit/spline_jet.h"
 #include "batten/limit/vertex_limit.h"
 #include "batten/parallel/parallel.h"
@@ -22,55 +23,109 @@ constexpr int kLevels = 2;
 /// A double has no smaller fractions of a face: here is the vertex itself.
 constexpr int kMostHalvings = 53;
 
-using Points3 = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+/// So many halvings of irregular faces are kept at most, and so many points (of 32 bytes) for each vertex of the base:
+/// all kept halvings where few faces are irregular, one or two where all are.
+constexpr int kMostKeptHalvings = 8;
+constexpr std::size_t kKeptPointsPerVertex = 96;
 
-/// One of four children, and the place in it. A triangle's middle child is turned: its parameters run backwards.
+/// One of four children, and how much faster its parameters run: a triangle's middle child is turned, backwards.
 struct Step {
   int child;
-  bool turned;
+  double factor;
 };
 Step halve(bool quads, double& u, double& v) {
-  if (quads) {
-    u *= 2.0;
-    v *= 2.0;
-    const bool right = u >= 1.0;
-    const bool up = v >= 1.0;
-    if (right) u -= 1.0;
-    if (up) v -= 1.0;
-    return {right ? (up ? 2 : 1) : (up ? 3 : 0), false};
-  }
-  const double w = 1.0 - u - v;
-  if (u >= 0.5) {
-    u = 2.0 * u - 1.0;
-    v = 2.0 * v;
-    return {1, false};
-  }
-  if (v >= 0.5) {
-    u = 2.0 * u;
-    v = 2.0 * v - 1.0;
-    return {2, false};
-  }
   u *= 2.0;
   v *= 2.0;
-  if (w >= 0.5) return {0, false};
+  if (quads) {
+    static constexpr int kChildren[4] = {0, 1, 3, 2};
+    const int right = u >= 1.0 ? 1 : 0;
+    const int up = v >= 1.0 ? 1 : 0;
+    u -= right;
+    v -= up;
+    return {kChildren[right + 2 * up], 2.0};
+  }
+  if (u >= 1.0) {
+    u -= 1.0;
+    return {1, 2.0};
+  }
+  if (v >= 1.0) {
+    v -= 1.0;
+    return {2, 2.0};
+  }
+  if (u + v <= 1.0) return {0, 2.0};
   u = 1.0 - u;
   v = 1.0 - v;
-  return {3, true};
+  return {3, -2.0};
 }
 
-/// The derivatives of the jet in a child's parameters become those in the parent's: `scale` is +-2^halvings.
-void chain(double scale, Jet& jet) {
-  jet.du *= scale;
-  jet.dv *= scale;
-  jet.duu *= scale * scale;
-  jet.duv *= scale * scale;
-  jet.dvv *= scale * scale;
+/// The corner that a place is nearest to, and how many halvings in a row lead to the child there.
+struct Approach {
+  int corner;
+  int halvings;
+};
+Approach approach(bool quads, double u, double v) {
+  int corner = 0;
+  double distance = u + v;
+  if (quads) {
+    static constexpr int kCorners[4] = {0, 1, 3, 2};
+    const bool right = u >= 0.5;
+    const bool up = v >= 0.5;
+    corner = kCorners[(right ? 1 : 0) + (up ? 2 : 0)];
+    distance = std::max(right ? 1.0 - u : u, up ? 1.0 - v : v);
+  } else if (u >= 0.5) {
+    corner = 1;
+    distance = 1.0 - u;
+  } else if (v >= 0.5) {
+    corner = 2;
+    distance = 1.0 - v;
+  }
+  // 2^-halvings is the next power of two from the distance on: the exponent of a double, from 2^-1 on.
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &distance, sizeof(bits));
+  return {corner, std::max(0, 1022 - static_cast<int>(bits >> 52))};
 }
+
+/// The parameters of the child that so many halvings towards a corner lead to.
+double approached(double parameter, bool far_side, double factor) {
+  return far_side ? 1.0 - factor * (1.0 - parameter) : factor * parameter;
+}
+
+constexpr auto kOpenPatch = static_cast<std::size_t>(-1);
 
 /// Scratch memory of one query.
 struct Workspace {
-  Points3 ring;
-  Points3 next;
+  Buffer<Double4> ring;
+  Buffer<Double4> centred;
+  Buffer<Index> order;  ///< 0, 1, 2, ...: the rows of a ring that stands in a row
+};
+
+/// The jet of a patch, whose parameters run `scale` times as fast as the place's.
+void set_jet(const PatchJet& patch, const Double4& origin, double scale, Jet& jet) {
+  const double second = scale * scale;
+  const auto set = [](const Double4& from, Eigen::Vector3d& to) { to << from[0], from[1], from[2]; };
+  set(patch[0] + origin, jet.point);
+  set(patch[1] * scale, jet.du);
+  set(patch[2] * scale, jet.dv);
+  set(patch[3] * second, jet.duu);
+  set(patch[4] * second, jet.duv);
+  set(patch[5] * second, jet.dvv);
+  jet.regular = true;
+}
+
+Buffer<Double4> with_a_spare_column(ConstValuesRef values) {
+  Buffer<Double4> points(static_cast<std::size_t>(values.rows()));
+  parallel_for(values.rows(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (std::ptrdiff_t i = begin; i < end; ++i) points[i] = Double4{values(i, 0), values(i, 1), values(i, 2), 0.0};
+  });
+  return points;
+}
+
+/// A ring or patch on the way down: its control points are points[rows[i]], seen from the origin.
+struct Descent {
+  Index kind;
+  const Double4* points;
+  const Index* rows;
+  Double4 origin;
 };
 
 }  // namespace
@@ -78,16 +133,22 @@ struct Workspace {
 struct LimitSurface::Parts {
   const Topology& control_topology;
   Scheme scheme;
+  bool quads;
   std::unique_ptr<Refinement> first;
   Pieces pieces;
   RingSteps steps;
   Buffer<Index> kinds;  ///< of each configuration of the pieces
-  Values base_values;
-  std::unique_ptr<LevelValues> values;
+  std::unique_ptr<RingBlocks> blocks;
+  int kept_halvings = 0;
+  /// Of each piece: where its tree stands in `trees`, or whether points of its patch are missing.
+  Buffer<std::size_t> tree_starts;
+  std::vector<Buffer<Double4>> points;  ///< of each level of the pieces
+  Buffer<Double4> trees;
 
   Parts(const Topology& topology, const Scheme& scheme_in)
       : control_topology(topology),
         scheme(scheme_in),
+        quads(scheme_in.kind == SchemeKind::CatmullClark),
         first(needs_first_step(topology, scheme_in) ? std::make_unique<Refinement>(topology, scheme_in) : nullptr),
         pieces(first == nullptr ? topology : first->child(), scheme_in.after_first_step(), kLevels,
                Pieces::Rest::Rings),
@@ -97,174 +158,240 @@ struct LimitSurface::Parts {
       ring.gather(configuration.topology, pieces.scheme(), 0);
       kinds.push_back(steps.kind_of(configuration.topology, ring));
     }
+    blocks = std::make_unique<RingBlocks>(steps, kMostKeptHalvings);
+    lay_out_trees();
   }
 
   const Topology& base() const { return pieces.topology(0); }
-  bool quads() const { return scheme.kind == SchemeKind::CatmullClark; }
+  std::size_t patch_size() const { return quads ? kQuadPatchSize : kTrianglePatchSize; }
 
-  void set_control(ConstValuesRef control) {
-    require_vertex_rows(control_topology, control);
-    if (control.cols() != 3) throw Error(ErrorCode::BadShape, "a limit surface has points of three columns");
-    base_values = first == nullptr ? Values(control) : first->apply(control);
-    values = std::make_unique<LevelValues>(pieces, base_values);
-  }
-
-  void check(const SurfacePlace& place) const {
-    if (place.face < 0 || place.face >= base().face_count()) {
-      throw Error(ErrorCode::IndexOutOfRange, "face " + std::to_string(place.face) + " does not exist; the base has " +
-                                                  std::to_string(base().face_count()) + " faces");
+  void lay_out_trees();
+  void set_control(ConstValuesRef control);
+  void check(const SurfacePlace& place) const;
+  const Piece& locate(const SurfacePlace& place, double& u, double& v) const;
+  void set(const SurfacePlace& place, Workspace& work, Jet& jet) const;
+  void patch_jet(double u, double v, const Double4* from, const Index* rows, PatchJet& jet) const {
+    if (quads) {
+      quad_jet(u, v, from, rows, jet);
+    } else {
+      triangle_jet(u, v, from, rows, jet);
     }
-    const double most = quads() ? 1.0 : 1.0 - place.v;
-    if (place.u >= 0.0 && place.v >= 0.0 && place.u <= most && place.v <= 1.0) return;
-    throw Error(ErrorCode::BadArgument,
-                "(u, v) = (" + std::to_string(place.u) + ", " + std::to_string(place.v) + ") is not in the face");
   }
-
-  /// The piece that a place lies in; (u, v) become its own parameters.
-  const Piece& locate(const SurfacePlace& place, double& u, double& v) const {
-    const Piece* piece = pieces.begin(place.face);
-    u = place.u;
-    v = place.v;
-    if (piece->level == 0) return *piece;
-    const double steps_per_side = 1 << kLevels;
-    const double x = place.u * steps_per_side;
-    const double y = place.v * steps_per_side;
-    // Rounding on a line between triangles may leave a place outside all of them: the nearest one will do.
-    const Piece* nearest = piece;
-    double least_outside = std::numeric_limits<double>::infinity();
-    for (; piece != pieces.end(place.face); ++piece) {
-      const double along = (piece->turned ? piece->x - x : x - piece->x) / piece->size;
-      const double across = (piece->turned ? piece->y - y : y - piece->y) / piece->size;
-      const double beyond = quads() ? std::max(along, across) - 1.0 : along + across - 1.0;
-      const double outside = std::max({-along, -across, beyond, 0.0});
-      if (outside >= least_outside) continue;
-      least_outside = outside;
-      nearest = piece;
-      u = along;
-      v = across;
-      if (outside == 0.0) break;
-    }
-    u = std::clamp(u, 0.0, 1.0);
-    v = std::clamp(v, 0.0, quads() ? 1.0 : 1.0 - u);
-    return *nearest;
-  }
-
-  Jet jet(const SurfacePlace& place, Workspace& work) const;
-  Jet patch_jet(double u, double v, const Points3& points) const;
-  Jet ring_jet(Index kind, const Piece& piece, double u, double v, Workspace& work) const;
-  Jet vertex_jet(const Piece& piece, double u, double v) const;
+  void set_on_open_patch(const Piece& piece, double u, double v, double scale, Jet& jet) const;
+  void set_on_ring(const Piece& piece, double u, double v, double scale, Workspace& work, Jet& jet) const;
+  void descend(int number, Workspace& work, Descent& at) const;
+  void set_at_vertex(const Piece& piece, double u, double v, Jet& jet) const;
+  std::size_t number_of(const Piece& piece) const { return static_cast<std::size_t>(&piece - pieces.begin(0)); }
 };
 
-Jet LimitSurface::Parts::patch_jet(double u, double v, const Points3& points) const {
-  JetWeights weights;
-  const int count = quads() ? 16 : kTrianglePatchSize;
-  if (quads()) {
-    quad_jet_weights(u, v, weights);
-  } else {
-    triangle_jet_weights(u, v, weights);
+/// The deepest trees that have their place.
+void LimitSurface::Parts::lay_out_trees() {
+  const Piece* begin = pieces.begin(0);
+  const Piece* end = base().face_count() == 0 ? begin : pieces.end(base().face_count() - 1);
+  const auto most = kKeptPointsPerVertex * static_cast<std::size_t>(base().vertex_count());
+  Buffer<std::size_t> pieces_of_kind(static_cast<std::size_t>(steps.kind_count()), 0);
+  for (const Piece* piece = begin; piece != end; ++piece) {
+    if (piece->kind != Piece::Kind::Patch) ++pieces_of_kind[kinds[piece->configuration]];
   }
-  const auto sum = [&](const std::array<double, 16>& row) {
-    Eigen::Vector3d total = Eigen::Vector3d::Zero();
-    for (int i = 0; i < count; ++i) total += row[i] * points.row(i).transpose();
-    return total;
-  };
-  return {sum(weights.value), sum(weights.du), sum(weights.dv), sum(weights.duu), sum(weights.duv), sum(weights.dvv)};
+  for (int depth = 1; depth <= kMostKeptHalvings; ++depth) {
+    std::size_t total = 0;
+    for (Index kind = 0; kind < steps.kind_count(); ++kind) {
+      total += pieces_of_kind[kind] * blocks->node(blocks->node_of(kind, depth)).size;
+    }
+    if (total > most) break;
+    kept_halvings = depth;
+  }
+  tree_starts.assign(static_cast<std::size_t>(end - begin), 0);
+  std::size_t size = 0;
+  for (const Piece* piece = begin; piece != end; ++piece) {
+    tree_starts[piece - begin] = size;
+    if (piece->kind == Piece::Kind::Patch) {
+      const Index* rows = pieces.rows(*piece);
+      if (std::find(rows, rows + patch_size(), RegularPatch::kMissing) != rows + patch_size()) {
+        tree_starts[piece - begin] = kOpenPatch;
+      }
+    } else if (kept_halvings > 0) {
+      size += blocks->node(blocks->node_of(kinds[piece->configuration], kept_halvings)).size;
+    }
+  }
+  trees.resize(size);
 }
 
-/// Halves the face until it is regular. Sums run around the first point of the ring, which comes along, so that small
-/// rings keep their digits.
-Jet LimitSurface::Parts::ring_jet(Index kind, const Piece& piece, double u, double v, Workspace& work) const {
-  Eigen::RowVector3d origin = Eigen::RowVector3d::Zero();
-  double scale = 1.0;
+void LimitSurface::Parts::set_control(ConstValuesRef control) {
+  require_vertex_rows(control_topology, control);
+  if (control.cols() != 3) throw Error(ErrorCode::BadShape, "a limit surface has points of three columns");
+  const Values refined = first == nullptr ? Values() : first->apply(control);
+  const LevelValues values = first == nullptr ? LevelValues(pieces, control) : LevelValues(pieces, refined);
+  points.clear();
+  for (int level = 0; level <= pieces.region_count(); ++level) points.push_back(with_a_spare_column(values.at(level)));
+  if (kept_halvings == 0) return;
+  parallel_for(
+      base().face_count(),
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        Buffer<Double4> scratch;
+        for (auto f = static_cast<Index>(begin); f < end; ++f) {
+          for (const Piece* piece = pieces.begin(f); piece != pieces.end(f); ++piece) {
+            if (piece->kind == Piece::Kind::Patch) continue;
+            blocks->fill(blocks->node_of(kinds[piece->configuration], kept_halvings), points[piece->level].data(),
+                         pieces.rows(*piece), Double4{}, &trees[tree_starts[number_of(*piece)]], scratch);
+          }
+        }
+      },
+      256);
+}
+
+void LimitSurface::Parts::check(const SurfacePlace& place) const {
+  const Index face_count = base().face_count();
+  const double most = quads ? 1.0 : 1.0 - place.v;
+  const bool inside = place.u >= 0.0 && place.v >= 0.0 && place.u <= most && place.v <= 1.0;
+  if (inside && place.face >= 0 && place.face < face_count) return;
+  if (place.face < 0 || place.face >= face_count) {
+    throw Error(ErrorCode::IndexOutOfRange, "face " + std::to_string(place.face) + " does not exist; the base has " +
+                                                std::to_string(face_count) + " faces");
+  }
+  throw Error(ErrorCode::BadArgument,
+              "(u, v) = (" + std::to_string(place.u) + ", " + std::to_string(place.v) + ") is not in the face");
+}
+
+/// The piece that a place lies in; (u, v) become its own parameters.
+const Piece& LimitSurface::Parts::locate(const SurfacePlace& place, double& u, double& v) const {
+  const Piece* piece = pieces.begin(place.face);
+  u = place.u;
+  v = place.v;
+  if (piece->level == 0) return *piece;
+  const double steps_per_side = 1 << kLevels;
+  const double x = place.u * steps_per_side;
+  const double y = place.v * steps_per_side;
+  // Rounding on a line between triangles may leave a place outside all of them: the nearest one will do.
+  const Piece* nearest = piece;
+  double least_outside = std::numeric_limits<double>::infinity();
+  for (; piece != pieces.end(place.face); ++piece) {
+    const double along = (piece->turned ? piece->x - x : x - piece->x) / piece->size;
+    const double across = (piece->turned ? piece->y - y : y - piece->y) / piece->size;
+    const double beyond = quads ? std::max(along, across) - 1.0 : along + across - 1.0;
+    const double outside = std::max({-along, -across, beyond, 0.0});
+    if (outside >= least_outside) continue;
+    least_outside = outside;
+    nearest = piece;
+    u = along;
+    v = across;
+    if (outside == 0.0) break;
+  }
+  u = std::clamp(u, 0.0, 1.0);
+  v = std::clamp(v, 0.0, quads ? 1.0 : 1.0 - u);
+  return *nearest;
+}
+
+/// Of a patch at a boundary or crease, whose other side follows by reflection.
+void LimitSurface::Parts::set_on_open_patch(const Piece& piece, double u, double v, double scale, Jet& jet) const {
+  const Double4* from = points[piece.level].data();
+  const Index* rows = pieces.rows(piece);
+  std::array<Double4, 16> patch{};
+  std::array<Index, 16> order{};
+  for (std::size_t i = 0; i < patch_size(); ++i) {
+    order[i] = static_cast<Index>(i);
+    if (rows[i] != RegularPatch::kMissing) patch[i] = from[rows[i]];
+  }
+  auto* numbers = reinterpret_cast<double*>(patch.data());
+  if (quads) {
+    complete_quad_patch(rows, numbers, 4);
+  } else {
+    complete_triangle_patch(rows, numbers, 4);
+  }
+  PatchJet patch_sums;
+  patch_jet(u, v, patch.data(), order.data(), patch_sums);
+  set_jet(patch_sums, Double4{}, scale, jet);
+}
+
+/// Halves the face until it is regular: down its tree, then as deep as it takes.
+void LimitSurface::Parts::set_on_ring(const Piece& piece, double u, double v, double scale, Workspace& work,
+                                      Jet& jet) const {
   const double first_u = u;
   const double first_v = v;
-  for (int halvings = 0; halvings < kMostHalvings; ++halvings) {
-    const Step step = halve(quads(), u, v);
-    scale *= step.turned ? -2.0 : 2.0;
-    const RingSteps::Child& child = steps.child(kind, step.child);
-    const Eigen::RowVector3d centre = work.ring.row(0);
-    origin += centre;
-    work.next.resize(child.rows.count(), 3);
-    for (Index r = 0; r < child.rows.count(); ++r) {
-      Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-      for (Index e = child.rows.starts[r]; e < child.rows.starts[r + 1]; ++e) {
-        sum += child.rows.weights[e] * (work.ring.row(child.rows.columns[e]) - centre);
-      }
-      work.next.row(r) = sum;
+  Descent at{kinds[piece.configuration], points[piece.level].data(), pieces.rows(piece), Double4{}};
+  int halvings = 0;
+  if (kept_halvings > 0) {
+    const Double4* tree = trees.data() + tree_starts[number_of(piece)];
+    std::int32_t node = blocks->node_of(at.kind, kept_halvings);
+    const Approach near = approach(quads, u, v);
+    const std::span<const RingBlocks::Jump> jumps = blocks->jumps(node, near.corner);
+    halvings = std::min(near.halvings, static_cast<int>(jumps.size()));
+    if (halvings > 0) {
+      const RingBlocks::Jump& jump = jumps[halvings - 1];
+      const double factor = std::ldexp(1.0, halvings);
+      u = approached(u, near.corner == 1 || (quads && near.corner == 2), factor);
+      v = approached(v, near.corner >= 2, factor);
+      scale *= factor;
+      at = {jump.child.kind, tree + jump.block + 1, jump.child.points, tree[jump.block]};
+      tree += jump.tree;
+      node = jump.child.node;
     }
-    std::swap(work.ring, work.next);
-    kind = child.kind;
-    if (kind != RingSteps::kPatch) continue;
-    if (quads()) {
-      complete_quad_patch(child.patch.rows.data(), work.ring.data(), 3);
-    } else {
-      complete_triangle_patch(child.patch.rows.data(), work.ring.data(), 3);
+    while (node >= 0) {
+      const Step step = halve(quads, u, v);
+      ++halvings;
+      scale *= step.factor;
+      const RingBlocks::Node::Child& child = blocks->node(node).children[step.child];
+      at = {child.kind, tree + 1, child.points, tree[0]};
+      tree += child.offset;
+      node = child.node;
     }
-    Jet jet = patch_jet(u, v, work.ring);
-    jet.point += origin.transpose();
-    chain(scale, jet);
-    return jet;
   }
-  return vertex_jet(piece, first_u, first_v);
+  for (; at.kind != RingSteps::kPatch && halvings < kMostHalvings; ++halvings) {
+    const Step step = halve(quads, u, v);
+    scale *= step.factor;
+    descend(step.child, work, at);
+  }
+  if (at.kind != RingSteps::kPatch) return set_at_vertex(piece, first_u, first_v, jet);
+  PatchJet sums;
+  patch_jet(u, v, at.points, at.rows, sums);
+  set_jet(sums, at.origin, scale, jet);
+}
+
+/// To a child's points, in scratch memory.
+void LimitSurface::Parts::descend(int number, Workspace& work, Descent& at) const {
+  const RingSteps::Step& step = steps.step(at.kind);
+  const Buffer<Index>& child = step.children[number];
+  const std::size_t count = child.size();
+  const Double4 centre = at.points[at.rows[0]];
+  blocks->centre(at.kind, at.points, at.rows, work.centred);
+  work.ring.resize(count);
+  for (std::size_t i = work.order.size(); i < count; ++i) work.order.push_back(static_cast<Index>(i));
+  for (std::size_t i = 0; i < count; ++i) {
+    work.ring[i] = RingBlocks::combine(step.rows, child[i], work.centred.data());
+  }
+  at = {steps.child(at.kind, number).kind, work.ring.data(), work.order.data(), at.origin + centre};
 }
 
 /// At the corner of the piece that the place is.
-Jet LimitSurface::Parts::vertex_jet(const Piece& piece, double u, double v) const {
+void LimitSurface::Parts::set_at_vertex(const Piece& piece, double u, double v, Jet& jet) const {
   const Topology& topology = pieces.topology(piece.level);
-  ConstValuesRef level_values = values->at(piece.level);
   Index half_edge = piece.half_edge;
-  const int corner = quads() ? (u < 0.5 ? (v < 0.5 ? 0 : 3) : (v < 0.5 ? 1 : 2)) : (u > 0.5 ? 1 : v > 0.5 ? 2 : 0);
+  const int corner = quads ? (u < 0.5 ? (v < 0.5 ? 0 : 3) : (v < 0.5 ? 1 : 2)) : (u > 0.5 ? 1 : v > 0.5 ? 2 : 0);
   for (int c = 0; c < corner; ++c) half_edge = topology.next(half_edge);
   const auto sum = [&](TileValue value) {
-    Eigen::Vector3d total = Eigen::Vector3d::Zero();
+    Double4 total{};
     visit_vertex_limit(topology, pieces.scheme(), value, half_edge,
-                       [&](Index vertex, double weight) { total += weight * level_values.row(vertex).transpose(); });
-    return total;
+                       [&](Index vertex, double weight) { total += weight * points[piece.level][vertex]; });
+    return Eigen::Vector3d(total[0], total[1], total[2]);
   };
-  Jet jet;
   jet.point = sum(TileValue::Limit);
   jet.du = sum(TileValue::TangentU);
   jet.dv = sum(TileValue::TangentV);
   jet.duu = jet.duv = jet.dvv = Eigen::Vector3d::Zero();
   jet.regular = false;
-  return jet;
 }
 
-Jet LimitSurface::Parts::jet(const SurfacePlace& place, Workspace& work) const {
+void LimitSurface::Parts::set(const SurfacePlace& place, Workspace& work, Jet& jet) const {
   double u = 0.0;
   double v = 0.0;
   const Piece& piece = locate(place, u, v);
-  const bool is_patch = piece.kind == Piece::Kind::Patch;
-  const Index kind = is_patch ? RingSteps::kPatch : kinds[piece.configuration];
-  const Index count = is_patch ? (quads() ? 16 : kTrianglePatchSize)
-                               : pieces.configurations()[piece.configuration].topology.vertex_count();
-  const Index* rows = pieces.rows(piece);
-  ConstValuesRef level_values = values->at(piece.level);
-  work.ring.resize(count, 3);
-  bool complete = true;
-  for (Index i = 0; i < count; ++i) {
-    if (rows[i] == RegularPatch::kMissing) {
-      complete = false;
-    } else {
-      work.ring.row(i) = level_values.row(rows[i]);
-    }
-  }
-  Jet jet;
-  if (is_patch) {
-    if (!complete) {
-      if (quads()) {
-        complete_quad_patch(rows, work.ring.data(), 3);
-      } else {
-        complete_triangle_patch(rows, work.ring.data(), 3);
-      }
-    }
-    jet = patch_jet(u, v, work.ring);
-  } else {
-    jet = ring_jet(kind, piece, u, v, work);
-  }
   const double size = static_cast<double>(1 << kLevels) / piece.size;
-  if (jet.regular) chain(piece.turned ? -size : size, jet);
-  return jet;
+  const double scale = piece.turned ? -size : size;
+  if (piece.kind != Piece::Kind::Patch) return set_on_ring(piece, u, v, scale, work, jet);
+  if (tree_starts[number_of(piece)] == kOpenPatch) return set_on_open_patch(piece, u, v, scale, jet);
+  PatchJet sums;
+  patch_jet(u, v, points[piece.level].data(), pieces.rows(piece), sums);
+  set_jet(sums, Double4{}, scale, jet);
 }
 
 LimitSurface::LimitSurface(const Topology& topology, const Scheme& scheme, ConstValuesRef control) {
@@ -281,7 +408,9 @@ void LimitSurface::set_control(ConstValuesRef control) { parts_->set_control(con
 Jet LimitSurface::jet(const SurfacePlace& place) const {
   parts_->check(place);
   Workspace work;
-  return parts_->jet(place, work);
+  Jet result;
+  parts_->set(place, work, result);
+  return result;
 }
 
 void LimitSurface::jets(std::span<const SurfacePlace> places, std::span<Jet> jets) const {
@@ -294,47 +423,9 @@ void LimitSurface::jets(std::span<const SurfacePlace> places, std::span<Jet> jet
       static_cast<std::ptrdiff_t>(places.size()),
       [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
         Workspace work;
-        for (std::ptrdiff_t i = begin; i < end; ++i) jets[i] = parts_->jet(places[i], work);
+        for (std::ptrdiff_t i = begin; i < end; ++i) parts_->set(places[i], work, jets[i]);
       },
       256);
-}
-
-PointCurvature curvature_of(const Jet& jet) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  PointCurvature result;
-  const Eigen::Vector3d cross = jet.du.cross(jet.dv);
-  const double length = cross.norm();
-  result.normal = length > 0.0 ? Eigen::Vector3d(cross / length) : Eigen::Vector3d::Zero();
-  result.mean = result.gaussian = result.greatest = result.least = kNone;
-  result.greatest_direction.setConstant(kNone);
-  result.least_direction.setConstant(kNone);
-  if (!jet.regular || !(length > 0.0)) return result;
-  const double e = jet.du.dot(jet.du);
-  const double f = jet.du.dot(jet.dv);
-  const double g = jet.dv.dot(jet.dv);
-  const double area = length * length;
-  // The second form with its sign turned: a sphere's outward normal points away from where it bends to.
-  const double l = -jet.duu.dot(result.normal);
-  const double m = -jet.duv.dot(result.normal);
-  const double n = -jet.dvv.dot(result.normal);
-  result.gaussian = (l * n - m * m) / area;
-  result.mean = 0.5 * (e * n - 2.0 * f * m + g * l) / area;
-  // In an orthonormal frame of the tangent plane the shape operator is symmetric.
-  const double a = std::sqrt(e);
-  const double b = f / a;
-  const double c = length / a;
-  const double s11 = l / e;
-  const double s12 = (m - b / a * l) / (a * c);
-  const double s22 = (n - 2.0 * b / a * m + b * b / e * l) / (c * c);
-  const double spread = std::hypot(0.5 * (s11 - s22), s12);
-  result.greatest = result.mean + spread;
-  result.least = result.mean - spread;
-  const double angle = 0.5 * std::atan2(s12, 0.5 * (s11 - s22));
-  const Eigen::Vector3d x = jet.du / a;
-  const Eigen::Vector3d y = result.normal.cross(x);
-  result.greatest_direction = std::cos(angle) * x + std::sin(angle) * y;
-  result.least_direction = result.normal.cross(result.greatest_direction);
-  return result;
 }
 
 }  // namespace batten

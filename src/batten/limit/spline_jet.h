@@ -6,6 +6,9 @@
 
 namespace batten {
 
+/// A point, and a number to spare that keeps it in one register.
+using Double4 = double __attribute__((vector_size(32)));
+
 /// Weights of a patch's control points for the value and the derivatives up to the second, in the patch's own (u, v).
 struct JetWeights {
   std::array<double, 16> value, du, dv, duu, duv, dvv;
@@ -16,5 +19,12 @@ void quad_jet_weights(double u, double v, JetWeights& weights);
 
 /// Twelve weights, in the order of kTriangleLattice. u, v, 1 - u - v >= 0.
 void triangle_jet_weights(double u, double v, JetWeights& weights);
+
+/// Value, du, dv, duu, duv, dvv.
+using PatchJet = std::array<Double4, 6>;
+
+/// Of control points[rows[i]], without weights in between: along u, then along v.
+void quad_jet(double u, double v, const Double4* points, const Index* rows, PatchJet& jet);
+void triangle_jet(double u, double v, const Double4* points, const Index* rows, PatchJet& jet);
 
 }  // namespace batten

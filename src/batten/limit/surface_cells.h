@@ -76,9 +76,8 @@ class SurfaceCells {
   const Topology& base() const { return pieces_->topology(0); }
   const RingSteps& steps() const { return steps_; }
   const BoxTree& tree() const { return tree_; }
-  /// The tree has (point - centre) * scale of a point, which is about 1: squares of floats must not leave their range.
+  /// Boxes are around here.
   const Vec4& centre() const { return centre_; }
-  double scale() const { return scale_; }
 
   /// A cell of the tree.
   struct Cell {
@@ -115,7 +114,6 @@ class SurfaceCells {
   Buffer<Cell> cells_;
   BoxTree tree_;
   Vec4 centre_{};
-  double scale_ = 1.0;
   std::size_t most_points_ = 0;
 };
 

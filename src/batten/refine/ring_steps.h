@@ -1,5 +1,6 @@
 /// \file How the surroundings of a face become those of its children: small matrices, once for all faces alike.
 #pragma once
+#include <array>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -31,17 +32,27 @@ class RingSteps {
   };
   static constexpr Index kPatch = -1;
 
+  /// The points of all four children at once: many are the same.
+  struct Step {
+    Index ring_size = 0;
+    SparseRows rows;                        ///< on the ring of the face
+    std::array<Buffer<Index>, 4> children;  ///< rows of each one's ring, or all 16 (12) of its patch
+  };
+
   /// The kind of a face's surroundings, which `ring` lists; works out its descendants where it is new. Not for faces
   /// with a regular patch.
   Index kind_of(const Topology& topology, const FaceRing& ring);
 
   /// Quads: children at the corners in turn. Triangles: at the corners, then the middle.
   const Child& child(Index kind, int number) const { return kinds_[kind][number]; }
+  Index kind_count() const { return static_cast<Index>(kinds_.size()); }
+  const Step& step(Index kind) const { return steps_[kind]; }
 
  private:
   Scheme scheme_;
   std::unordered_map<std::string, Index> numbers_;
   std::vector<std::vector<Child>> kinds_;
+  std::vector<Step> steps_;
 };
 
 }  // namespace batten
