@@ -20,9 +20,9 @@ struct NearestPoint {
 };
 
 /// Built for a connectivity and control points; asking is const and safe from several threads.
-/// Build O(H): 10 to 15 us a face. Memory: 72 bytes a cell, and 200 to 400 a face; a regular face has 1 to 64 cells, by
-/// how much it bends, one next to irregular vertices 10 to 31. A query near the surface takes a few microseconds, one
-/// near its medial axis, where many places are equally near, up to some milliseconds.
+/// Build O(H): 10 to 50 us a face, most where creases meet. Memory: 72 bytes a cell, and 200 to 400 a face; a regular
+/// face has 1 to 64 cells, by how much it bends, one next to irregular vertices 10 to 31. A query near the surface
+/// takes a few microseconds, one near its medial axis, where many places are equally near, up to some milliseconds.
 class NearestPoints {
  public:
   /// control: V-by-3. The topology must outlive it. Throws Error(NotTriangles, BadShape, NotFinite, Cancelled), and
