@@ -76,6 +76,7 @@ std::string growth_section();
 std::string process_section();
 std::string file_section();
 std::string picture_section();
+std::string nearest_section();
 
 /// In a process of its own: interpolates a refined mesh of at least so many vertices, then exits.
 int run_large(Index vertices);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "batten/interpolate/interpolator.h"
+#include "batten/limit/adaptive.h"
 #include "batten/mesh/repair.h"
 #include "batten/render/render.h"
 
@@ -64,11 +65,24 @@ struct InterpolateArguments {
   int levels = -1;  ///< -1: write the control mesh, or for GLB at most 3
 };
 
+/// A length in the mesh's unit, or as a share of the bounding box's diagonal.
+struct Length {
+  double value = 0.0;
+  bool relative = false;
+};
+
 struct SubdivideArguments {
   CommonArguments common;
   PictureArguments picture;
-  int levels = 1;
+  int levels = -1;  ///< -1: once, or for adaptive tessellation as often as a bound asks
   bool limit = false;
+  std::optional<Length> chord;  ///< one of these three: adaptive tessellation
+  std::optional<Length> edge_length;
+  std::optional<double> angle;
+  std::optional<FaceKind> faces;
+  std::optional<Index> max_faces;
+
+  bool adaptive() const { return chord || edge_length || angle; }
 };
 
 struct RenderArguments {
@@ -95,6 +109,8 @@ struct RepairArguments {
 int run_info(const CommonArguments& arguments);
 int run_interpolate(const InterpolateArguments& arguments);
 int run_subdivide(const SubdivideArguments& arguments);
+/// subdivide where a bound is given.
+int run_adaptive(const SubdivideArguments& arguments);
 int run_convert(const CommonArguments& arguments);
 int run_repair(const RepairArguments& arguments);
 int run_render(const RenderArguments& arguments);

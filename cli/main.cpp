@@ -34,6 +34,8 @@ const Names<OnSingular> kOnSingular{
     {"refuse", OnSingular::Refuse}, {"least-squares", OnSingular::LeastSquares}, {"alpha", OnSingular::Alpha}};
 const Names<LimitMasks> kMasks{{"exact", LimitMasks::Exact}, {"opensubdiv", LimitMasks::OpenSubdiv}};
 
+const Names<FaceKind> kFaces{{"quads", FaceKind::Quads}, {"triangles", FaceKind::Triangles}};
+
 const Names<Coloring> kColorings{{"error", Coloring::Error},     {"moved", Coloring::Moved},
                                  {"mean", Coloring::Mean},       {"gaussian", Coloring::Gaussian},
                                  {"valence", Coloring::Valence}, {"sharpness", Coloring::Sharpness},
@@ -214,15 +216,64 @@ void add_interpolate(CLI::App& app, InterpolateArguments& arguments, int& status
   verb.callback([&] { status = run_interpolate(arguments); });
 }
 
+/// A number, or one with a per cent sign: of the diagonal.
+void add_length(CLI::App& verb, const std::string& name, std::optional<Length>& target, const std::string& help) {
+  verb.add_option_function<std::string>(
+          name,
+          [&target, name](const std::string& words) {
+            std::istringstream text(words);
+            Length length;
+            const bool read = static_cast<bool>(text >> length.value);
+            length.relative = read && text.peek() == '%';
+            if (length.relative) {
+              text.get();
+              length.value /= 100.0;
+            }
+            if (!read || text.peek() != std::istringstream::traits_type::eof() || !(length.value > 0.0)) {
+              throw CLI::ValidationError(name, "'" + words +
+                                                   "' is neither a positive length like 0.01 nor a share of the "
+                                                   "bounding box's diagonal like 0.1%");
+            }
+            target = length;
+          },
+          help)
+      ->option_text("LENGTH|PERCENT%");
+}
+
+void add_adaptive(CLI::App& verb, SubdivideArguments& arguments) {
+  add_length(verb, "--chord", arguments.chord,
+             "as few faces as stay so near to the limit surface, in the mesh's unit or in % of the diagonal");
+  add_length(verb, "--edge-length", arguments.edge_length, "as few faces as have no longer edge");
+  verb.add_option("--angle", arguments.angle, "as few faces as turn by no more than so many degrees each")
+      ->check(CLI::PositiveNumber)
+      ->option_text("DEGREES");
+  add_choice(verb, "--faces", arguments.faces, kFaces,
+             "with a bound: what to make; quads for Catmull-Clark and triangles for Loop, if not given");
+  verb.add_option("--max-faces", arguments.max_faces, "with a bound: stop with an error beyond so many; 20 million")
+      ->check(CLI::PositiveNumber)
+      ->option_text("N");
+}
+
 void add_subdivide(CLI::App& app, SubdivideArguments& arguments, int& status) {
-  CLI::App& verb = *app.add_subcommand("subdivide", "refine a control mesh uniformly");
+  CLI::App& verb = *app.add_subcommand("subdivide", "refine a control mesh uniformly, or as far as a bound asks");
   add_input(verb, arguments.common);
   add_output(verb, arguments.common);
   add_surface(verb, arguments.common);
-  verb.add_option("--levels", arguments.levels, "how often")->check(CLI::Range(0, 12))->capture_default_str();
+  verb.add_option("--levels", arguments.levels, "how often, once if not given; with a bound: at most so often")
+      ->check(CLI::Range(0, 16));
   verb.add_flag("--limit", arguments.limit, "then move the vertices to the limit surface, with its normals");
+  add_adaptive(verb, arguments);
   add_picture(verb, arguments.picture);
-  verb.callback([&] { status = run_subdivide(arguments); });
+  verb.callback([&] {
+    if (!arguments.adaptive() && (arguments.faces || arguments.max_faces)) {
+      throw CLI::ValidationError(arguments.faces ? "--faces" : "--max-faces",
+                                 "needs a bound: --chord, --edge-length or --angle");
+    }
+    if (!arguments.adaptive() && arguments.levels > 12) {
+      throw CLI::ValidationError("--levels", "at most 12 without a bound");
+    }
+    status = arguments.adaptive() ? run_adaptive(arguments) : run_subdivide(arguments);
+  });
 }
 
 void add_render(CLI::App& app, RenderArguments& arguments, int& status) {

@@ -10,6 +10,7 @@ namespace batten::cli {
 
 int run_subdivide(const SubdivideArguments& arguments) {
   const CommonArguments& common = arguments.common;
+  const int levels = arguments.levels < 0 ? 1 : arguments.levels;
   const ThreadLimit limit(common.threads);
   Stages stages;
   nlohmann::ordered_json repairs;
@@ -19,8 +20,8 @@ int run_subdivide(const SubdivideArguments& arguments) {
   const Topology topology(mesh, ProgressBar("connecting", common.quiet).callback());
   stages.finish("topology");
   ProgressBar bar("refining", common.quiet);
-  const Mesh refined = arguments.limit ? surface_mesh(topology, scheme, mesh, arguments.levels, bar.callback())
-                                       : refine_mesh(topology, scheme, mesh, arguments.levels, bar.callback()).mesh;
+  const Mesh refined = arguments.limit ? surface_mesh(topology, scheme, mesh, levels, bar.callback())
+                                       : refine_mesh(topology, scheme, mesh, levels, bar.callback()).mesh;
   stages.finish("subdivide");
   write_output(common, refined);
   stages.finish("write");
@@ -30,14 +31,14 @@ int run_subdivide(const SubdivideArguments& arguments) {
     subject.flat = true;
     subject.before = mesh;
     subject.before_caption = "the mesh given";
-    subject.after_caption = "refined " + (arguments.levels == 1 ? "once" : std::to_string(arguments.levels) + " times");
+    subject.after_caption = "refined " + (levels == 1 ? "once" : std::to_string(levels) + " times");
     draw(subject, arguments.picture, common.quiet);
     stages.finish("picture");
   }
   Table table;
   table.add("mesh", mesh_text(topology));
   table.add("scheme", scheme_text(scheme));
-  table.add("refined", fmt::format("{} to {}{}", count_of(arguments.levels, "level", "levels"), size_text(refined),
+  table.add("refined", fmt::format("{} to {}{}", count_of(levels, "level", "levels"), size_text(refined),
                                    arguments.limit ? ", on the limit surface" : ""));
   table.add("time", stages.text());
   table.print(common);
@@ -45,7 +46,7 @@ int run_subdivide(const SubdivideArguments& arguments) {
                              {"input", common.input},
                              {"output", common.output},
                              {"repairs", repairs},
-                             {"levels", arguments.levels},
+                             {"levels", levels},
                              {"limit", arguments.limit},
                              {"scheme", scheme_json(scheme)},
                              {"vertices", refined.vertex_count()},

@@ -115,6 +115,27 @@ TEST_F(Tool, SubdividesToTheLimitWithNormals) {
   EXPECT_LT((point.normalized() - fine.attributes[0].values.row(0)).norm(), 1e-6);
 }
 
+TEST_F(Tool, TessellatesToAChordTolerance) {
+  const std::string command = "subdivide " + kModels + "creature.obj --chord 0.5% ";
+  const Outcome result = run(command + "-o quads.ply --report r.json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("all quads"), std::string::npos) << result.out;
+  const auto report = nlohmann::json::parse(text_of(path("r.json")));
+  const double asked = report["chord"]["asked"].get<double>();
+  EXPECT_NEAR(asked, 0.005 * bounding_diagonal(read_mesh(kModels + "creature.obj").points), 1e-12);
+  EXPECT_LE(report["chord"]["measured"].get<double>(), asked);
+  EXPECT_GT(report["chord"]["measured"].get<double>(), 0.1 * asked);
+  const Mesh quads = read_mesh(path("quads.ply"));
+  EXPECT_EQ(quads.face_vertices.size(), 4 * static_cast<std::size_t>(quads.face_count()));
+  EXPECT_EQ(run(command + "--faces triangles -o triangles.ply").status, 0);
+  EXPECT_TRUE(all_triangles(read_mesh(path("triangles.ply"))));
+  EXPECT_EQ(run(command + "--edge-length 0.2 --angle 15 -o both.ply").status, 0);
+  EXPECT_EQ(run(command + "--max-faces 100 -o few.ply").status, 1);
+  for (const char* wrong : {"--chord 0", "--chord -1", "--chord 3x", "--chord nan", "--angle 0", "--faces quads"}) {
+    EXPECT_EQ(run("subdivide " + kModels + "cube.obj -o x.ply " + wrong).status, 2) << wrong;
+  }
+}
+
 TEST_F(Tool, RefusesLoopOnQuadsWithTheHint) {
   const Outcome result = run("interpolate " + kModels + "tripod.obj -o x.obj --scheme loop");
   EXPECT_EQ(result.status, 1);

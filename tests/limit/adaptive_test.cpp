@@ -7,6 +7,7 @@
 
 #include "batten/error.h"
 #include "batten/limit/limit_matrix.h"
+#include "batten/limit/nearest_point.h"
 #include "batten/limit/tessellator.h"
 #include "batten/mesh/triangulate.h"
 #include "batten/parallel/parallel.h"
@@ -160,6 +161,33 @@ TEST(Adaptive, KeepsTheChordTolerance) {
       EXPECT_LE(measured_chord(surface, result), options.chord);
     });
   }
+}
+
+/// The other way: places on the faces, against the proved nearest points of the surface.
+TEST(Adaptive, HasNoFaceFartherFromTheSurfaceThanTheTolerance) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for_each_case(0.002, 16, [&](const Case& which, const AdaptiveOptions& options, const AdaptiveMesh& result) {
+    const Topology topology(which.mesh);
+    const NearestPoints surface(topology, which.scheme, which.mesh.points);
+    const Mesh& mesh = result.mesh;
+    constexpr Index kPlaces = 1000;
+    Values places(kPlaces, 3);
+    for (Index i = 0; i < kPlaces; ++i) {
+      const Index f = static_cast<Index>(random() % static_cast<unsigned>(mesh.face_count()));
+      const Index* face = &mesh.face_vertices[mesh.face_offsets[f]];
+      double a = unit(random);
+      double b = unit(random);
+      if (a + b > 1.0) a = 1.0 - a, b = 1.0 - b;
+      places.row(i) =
+          (1.0 - a - b) * mesh.points.row(face[0]) + a * mesh.points.row(face[1]) + b * mesh.points.row(face[2]);
+    }
+    std::vector<NearestPoint> found(kPlaces);
+    surface.nearest(places, found);
+    double worst = 0.0;
+    for (const NearestPoint& point : found) worst = std::max(worst, point.distance);
+    EXPECT_LE(worst, options.chord);
+  });
 }
 
 TEST(Adaptive, IsTheSameForAnyNumberOfThreads) {

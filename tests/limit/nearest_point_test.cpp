@@ -227,6 +227,24 @@ TEST(NearestPoint, OfWhatIsFarAwayIsKnownToRounding) {
   }
 }
 
+TEST(NearestPoint, TheUnitDoesNotMatter) {
+  for (const double unit : {1e-30, 1.0, 1e30}) {
+    Mesh mesh = torus(8, 6);
+    const Points queries = random_queries(mesh, 50, 10) * unit;
+    mesh.points *= unit;
+    const Topology topology(mesh);
+    const NearestPoints nearest(topology, Scheme(), mesh.points);
+    const Samples samples(topology, Scheme(), mesh.points, 4);
+    for (Eigen::Index i = 0; i < queries.rows(); ++i) {
+      const NearestPoint found = nearest.nearest(queries.row(i).transpose());
+      const double brute = samples.nearest_distance(queries.row(i).transpose());
+      EXPECT_LE(found.distance, brute + nearest.tolerance());
+      EXPECT_GE(found.distance, brute - 0.05 * unit);
+      EXPECT_LE(found.distance - found.least_distance, 1.001 * nearest.tolerance());
+    }
+  }
+}
+
 TEST(NearestPoint, OfASurfaceThatIsAPointIsThePoint) {
   Mesh mesh = cube();
   mesh.points.rowwise() = Eigen::RowVector3d(1.0, 2.0, 3.0);

@@ -32,7 +32,7 @@ struct AdaptiveOptions {
   /// Cells of this level stay, whatever the bounds say: 0 to 16. Quads are once more halved.
   int max_level = 16;
   /// Error(TooLarge) beyond.
-  Index max_faces = 100'000'000;
+  Index max_faces = 20'000'000;
 };
 
 /// A mesh on the surface. Faces stand in an order that depends on the input alone, not grouped.

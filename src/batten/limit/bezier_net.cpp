@@ -90,13 +90,6 @@ NetTables<Net> make_tables(double spline_unit, double half_unit) {
   return tables;
 }
 
-void widen(const Vec4& point, Vec4& low, Vec4& high) {
-  for (int c = 0; c < 4; ++c) {
-    low[c] = point[c] < low[c] ? point[c] : low[c];
-    high[c] = point[c] > high[c] ? point[c] : high[c];
-  }
-}
-
 struct CubicJet {
   double value[4], first[4], second[4];
 };
@@ -188,7 +181,10 @@ NetFrame<Net>::NetFrame(const Vec4* net) {
   }
   for (int i = 0; i < Net::kPoints; ++i) points[i] = net[i][0] * x + net[i][1] * y + net[i][2] * z;
   low = high = points[0];
-  for (int i = 1; i < Net::kPoints; ++i) widen(points[i], low, high);
+  for (int i = 1; i < Net::kPoints; ++i) {
+    low = lower(low, points[i]);
+    high = higher(high, points[i]);
+  }
 }
 
 template <typename Net>
@@ -230,17 +226,20 @@ struct SecondBounds {
 
 template <typename Net>
 SecondBounds second_bounds(const NetFrame<Net>& frame) {
-  std::array<double, 3> low;
-  std::array<double, 3> high;
-  std::array<double, 3> along{};
-  low.fill(std::numeric_limits<double>::infinity());
-  high.fill(-std::numeric_limits<double>::infinity());
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  std::array<Vec4, 3> low;
+  std::array<Vec4, 3> high;
+  low.fill(Vec4{kFar, kFar, kFar, kFar});
+  high.fill(-low[0]);
   Net::second_derivatives(frame.points.data(), [&](const Vec4& d, int which) {
-    low[which] = std::min(low[which], d[2]);
-    high[which] = std::max(high[which], d[2]);
-    along[which] = std::max(along[which], d[0] * d[0] + d[1] * d[1]);
+    low[which] = lower(low[which], d);
+    high[which] = higher(high[which], d);
   });
-  for (double& each : along) each = std::sqrt(each);
+  std::array<double, 3> along;
+  for (int k = 0; k < 3; ++k) {
+    const Vec4 most = higher(high[k], -low[k]);
+    along[k] = std::sqrt(most[0] * most[0] + most[1] * most[1]);
+  }
   // (u, v) = (p - b q / c, q) / ... : with du = (a, 0) and dv = (b, c), d/dp = d/du / a and d/dq = (d/dv - b/a d/du)/c.
   const double a = 1.0 / frame.du_length;
   const double c = 1.0 / frame.dv_across;
@@ -260,8 +259,8 @@ SecondBounds second_bounds(const NetFrame<Net>& frame) {
   std::array<double, 3> centre;
   std::array<double, 3> radius;
   for (int k = 0; k < 3; ++k) {
-    centre[k] = 0.5 * (low[k] + high[k]);
-    radius[k] = 0.5 * (high[k] - low[k]);
+    centre[k] = 0.5 * (low[k][2] + high[k][2]);
+    radius[k] = 0.5 * (high[k][2] - low[k][2]);
   }
   const std::array<double, 3> form = combine(centre, -1.0);
   const double mean = 0.5 * (form[0] + form[2]);
@@ -273,15 +272,14 @@ SecondBounds second_bounds(const NetFrame<Net>& frame) {
 /// How far the tangential derivatives by parameters of unit metric are from an isometry.
 template <typename Net>
 double first_bound(const NetFrame<Net>& frame) {
-  std::array<double, 2> most{};
+  std::array<Vec4, 2> most{};
   const Vec4 mean[2] = {{frame.du_length, 0.0, 0.0, 0.0}, {frame.dv_along, frame.dv_across, 0.0, 0.0}};
   Net::first_derivatives(frame.points.data(), [&](const Vec4& d, int which) {
-    const double x = d[0] - mean[which][0];
-    const double y = d[1] - mean[which][1];
-    most[which] = std::max(most[which], x * x + y * y);
+    const Vec4 off = d - mean[which];
+    most[which] = higher(most[which], off * off);
   });
-  const double in_u = std::sqrt(most[0]) / frame.du_length;
-  const double in_v = (std::sqrt(most[1]) + std::abs(frame.dv_along) * in_u) / frame.dv_across;
+  const double in_u = std::sqrt(most[0][0] + most[0][1]) / frame.du_length;
+  const double in_v = (std::sqrt(most[1][0] + most[1][1]) + std::abs(frame.dv_along) * in_u) / frame.dv_across;
   return std::sqrt(in_u * in_u + in_v * in_v);
 }
 

@@ -11,7 +11,13 @@ namespace batten {
 
 using Vec4 = double __attribute__((vector_size(32)));  ///< x, y, z and a lane that nobody reads
 
-inline double dot(const Vec4& a, const Vec4& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline double dot(const Vec4& a, const Vec4& b) {
+  const Vec4 products = a * b;
+  return products[0] + products[1] + products[2];
+}
+/// Lane by lane.
+inline Vec4 lower(const Vec4& a, const Vec4& b) { return a < b ? a : b; }
+inline Vec4 higher(const Vec4& a, const Vec4& b) { return a > b ? a : b; }
 
 struct NetJet {
   Vec4 point, du, dv, duu, duv, dvv;

@@ -1,6 +1,8 @@
 #include "batten/limit/nearest_point.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <variant>
@@ -16,6 +18,34 @@ namespace {
 constexpr double kTolerance = 1e-10;  ///< of the diagonal
 /// From farther away, in diagonals, doubles no longer tell the surface's points apart.
 constexpr double kFarthest = 1e8;
+
+/// Every third bit, from the lowest on.
+std::uint64_t spread_bits(std::uint64_t number) {
+  constexpr int kBits = 10;
+  std::uint64_t spread = 0;
+  for (int bit = 0; bit < kBits; ++bit) spread |= (number >> bit & 1U) << (3 * bit);
+  return spread;
+}
+
+/// The queries' rows in the order of a curve that fills the box around the surface: neighbours share the cache.
+Buffer<std::uint64_t> rows_along_curve(ConstValuesRef queries, const Eigen::Vector3d& low, double size) {
+  constexpr double kSteps = 1023.0;
+  constexpr int kRowBits = 32;
+  Buffer<std::uint64_t> rows(static_cast<std::size_t>(queries.rows()));
+  parallel_for(queries.rows(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (std::ptrdiff_t i = begin; i < end; ++i) {
+      std::uint64_t code = 0;
+      for (int c = 0; c < 3; ++c) {
+        const double place = size > 0.0 ? (queries(i, c) - low[c]) / size : 0.0;
+        code |= spread_bits(static_cast<std::uint64_t>(std::clamp(place, 0.0, 1.0) * kSteps)) << c;
+      }
+      rows[i] = code << kRowBits | static_cast<std::uint64_t>(i);
+    }
+  });
+  std::sort(rows.begin(), rows.end());
+  for (std::uint64_t& row : rows) row &= (std::uint64_t{1} << kRowBits) - 1;
+  return rows;
+}
 
 Vec4 vector_of(const Eigen::Vector3d& point) { return Vec4{point[0], point[1], point[2], 0.0}; }
 
@@ -35,7 +65,7 @@ struct NearestPoints::Parts {
 template <typename Net>
 NearestPoint NearestPoints::Parts::find(NearestSearch<Net>& search, const Eigen::Vector3d& query) const {
   const Eigen::Vector3d away = query - centre;
-  const double far = away.stableNorm();
+  const double far = away.cwiseAbs().maxCoeff() < 1e100 ? away.norm() : away.stableNorm();
   const double farthest = std::max(kFarthest * diagonal, std::numeric_limits<double>::min());
   const bool too_far = far > farthest && diagonal > 0.0;
   const Eigen::Vector3d from = too_far ? Eigen::Vector3d(centre + away * (farthest / far)) : query;
@@ -69,8 +99,8 @@ NearestPoints::NearestPoints(const Topology& topology, const Scheme& scheme, Con
       throw Error(ErrorCode::BadArgument, "all faces are holes, so there is no surface to be near to");
     const Vec4& centre = cells.centre();
     parts_->centre = {centre[0], centre[1], centre[2]};
-    parts_->diagonal = std::sqrt(std::pow(box.high[0] - box.low[0], 2.0) + std::pow(box.high[1] - box.low[1], 2.0) +
-                                 std::pow(box.high[2] - box.low[2], 2.0));
+    const Eigen::Vector3d extent(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
+    parts_->diagonal = extent.norm() / cells.scale();
   };
   if (scheme.kind == SchemeKind::CatmullClark) {
     build(QuadNet());
@@ -105,13 +135,16 @@ void NearestPoints::nearest(ConstValuesRef queries, std::span<NearestPoint> foun
     if (!queries.row(i).allFinite())
       throw Error(ErrorCode::NotFinite, "row " + std::to_string(i) + " of the queries is not finite; leave it out");
   }
+  const Eigen::Vector3d low = parts_->centre.array() - 0.5 * parts_->diagonal;
+  const Buffer<std::uint64_t> rows = rows_along_curve(queries, low, parts_->diagonal);
   const auto run = [&](const auto& cells) {
     if constexpr (!std::is_same_v<std::decay_t<decltype(cells)>, std::monostate>) {
       parallel_for(
           queries.rows(),
           [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
             NearestSearch search(cells);
-            for (std::ptrdiff_t i = begin; i < end; ++i) found[i] = parts_->find(search, queries.row(i).transpose());
+            for (std::ptrdiff_t i = begin; i < end; ++i)
+              found[rows[i]] = parts_->find(search, queries.row(static_cast<Eigen::Index>(rows[i])).transpose());
           },
           kBlock, progress);
     }

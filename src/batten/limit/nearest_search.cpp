@@ -29,7 +29,7 @@ NearestFound NearestSearch<Net>::find(const Vec4& query, double tolerance) {
   best_ = {};
   best_.squared = best_.least = cut_ = std::numeric_limits<double>::infinity();
   visits_ = 0;
-  const Vec4 from_centre = query - cells_.centre();
+  const Vec4 from_centre = (query - cells_.centre()) * cells_.scale();
   const std::array<float, 3> point{static_cast<float>(from_centre[0]), static_cast<float>(from_centre[1]),
                                    static_cast<float>(from_centre[2])};
   constexpr float kMore = 1.0F + 4.0F * std::numeric_limits<float>::epsilon();
@@ -37,7 +37,7 @@ NearestFound NearestSearch<Net>::find(const Vec4& query, double tolerance) {
   queue_.clear();
   cells_.tree().visit_near(point, std::numeric_limits<float>::infinity(), [&](Index place) {
     if (cut_ > 0.0) visit(place);
-    return cut_ > 0.0 ? static_cast<float>(best_.squared) * kMore : 0.0F;
+    return cut_ > 0.0 ? static_cast<float>(best_.squared * cells_.scale() * cells_.scale()) * kMore : 0.0F;
   });
   search_pending();
   best_.least = cut_ > 0.0 ? std::min(best_.least, best_.squared) : 0.0;
@@ -57,10 +57,8 @@ bool NearestSearch<Net>::leave_box(const Vec4* points, std::size_t count) {
   Vec4 low = points[0];
   Vec4 high = points[0];
   for (std::size_t i = 1; i < count; ++i) {
-    for (int c = 0; c < 4; ++c) {
-      low[c] = std::min(low[c], points[i][c]);
-      high[c] = std::max(high[c], points[i][c]);
-    }
+    low = lower(low, points[i]);
+    high = higher(high, points[i]);
   }
   double squared = 0.0;
   for (int c = 0; c < 3; ++c) {
@@ -163,9 +161,9 @@ bool NearestSearch<Net>::descend(const Vec4* net, const NetFrame<Net>& frame, do
                                  const Placement& placement, double& least) {
   constexpr double kSmallStep = 1e-7;  // the next one is its square
   const bool provable = modulus > kLeastModulus;
-  double u = 0.0;
-  double v = 0.0;
-  frame.guess(u, v);
+  double u = Net::kMiddle;  // from where bounds reach farthest
+  double v = Net::kMiddle;
+  if (provable) frame.guess(u, v);
   bool best_here = false;
   double step = 1.0;
   for (int i = 0; i < (provable ? kMostSteps : 3); ++i) {

@@ -22,10 +22,8 @@ struct Box {
   bool empty = true;
 
   void add(const Vec4& point) {
-    for (int c = 0; c < 4; ++c) {
-      low[c] = empty || point[c] < low[c] ? point[c] : low[c];
-      high[c] = empty || point[c] > high[c] ? point[c] : high[c];
-    }
+    low = empty ? point : lower(low, point);
+    high = empty ? point : higher(high, point);
     empty = false;
   }
   double least_squared() const {

@@ -41,10 +41,8 @@ FloatBox box_of(const std::vector<Vec4>& points) {
   Vec4 low = points[0];
   Vec4 high = points[0];
   for (const Vec4& point : points) {
-    for (int c = 0; c < 4; ++c) {
-      low[c] = point[c] < low[c] ? point[c] : low[c];
-      high[c] = point[c] > high[c] ? point[c] : high[c];
-    }
+    low = lower(low, point);
+    high = higher(high, point);
   }
   FloatBox box;
   for (int c = 0; c < 3; ++c) {
@@ -200,6 +198,8 @@ void SurfaceCells<Net>::find_values(ConstValuesRef base_values) {
   limits_ = vectors_of(LimitMatrix(base(), pieces_->scheme()).apply(base_values));
   const Eigen::RowVector3d middle = 0.5 * (base_values.colwise().minCoeff() + base_values.colwise().maxCoeff());
   centre_ = Vec4{middle[0], middle[1], middle[2], 0.0};
+  const double size = (base_values.rowwise() - middle).cwiseAbs().maxCoeff();
+  if (size > 0.0) scale_ = 1.0 / size;
   most_points_ = static_cast<std::size_t>(shapes_->most_points());
 }
 
@@ -330,6 +330,7 @@ void SurfaceCells<Net>::build_tree(const Progress& progress) {
         std::vector<Vec4> bounds;
         for (std::ptrdiff_t i = begin; i < end; ++i) {
           gather_bounds(cells_[i], scratch, bounds);
+          for (Vec4& point : bounds) point *= scale_;
           boxes[i] = box_of(bounds);
           const Vec4 along = bounds[Net::kCorner[1]] - bounds[0];
           leaning[i] = leaning_box_of(reinterpret_cast<const Eigen::Vector4d*>(bounds.data()), bounds.size(),

@@ -76,8 +76,9 @@ class SurfaceCells {
   const Topology& base() const { return pieces_->topology(0); }
   const RingSteps& steps() const { return steps_; }
   const BoxTree& tree() const { return tree_; }
-  /// Boxes are around here.
+  /// The tree has (point - centre) * scale of a point, which is about 1: squares of floats must not leave their range.
   const Vec4& centre() const { return centre_; }
+  double scale() const { return scale_; }
 
   /// A cell of the tree.
   struct Cell {
@@ -114,6 +115,7 @@ class SurfaceCells {
   Buffer<Cell> cells_;
   BoxTree tree_;
   Vec4 centre_{};
+  double scale_ = 1.0;
   std::size_t most_points_ = 0;
 };
 
