@@ -47,12 +47,29 @@ struct Run {
   double longest() const { return mean.norm() + radius; }
 };
 
+/// Of any two of the differences, over the plane.
+template <typename Differences>
+double least_area(const Differences& du, const Differences& dv, const Point& normal) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Point& u : du) {
+    for (const Point& v : dv) least = std::min(least, u.cross(v).dot(normal));
+  }
+  return least;
+}
+
 /// What the distance may be, from second differences across the plane and whole. A displacement along the plane changes
 /// the height by no more than the steepest slope times as much, and by no more than there is height.
-double combine(double across, double whole, const Run& u, const Run& v, const Point& normal) {
+template <typename Differences>
+double combine(double across, double whole, const Differences& du, const Differences& dv, const Point& normal) {
   if (normal.squaredNorm() == 0.0) return whole;
-  const double area = std::abs(u.mean.cross(v.mean).dot(normal)) - u.radius * v.mean.norm() - v.radius * u.mean.norm() -
-                      u.radius * v.radius;
+  const Run u(du, normal);
+  const Run v(dv, normal);
+  double area = std::abs(u.mean.cross(v.mean).dot(normal)) - u.radius * v.mean.norm() - v.radius * u.mean.norm() -
+                u.radius * v.radius;
+  if (!(area > 0.0)) area = least_area(du, dv, normal);
+  // A triangle lattice's differences say too little of the area: flat patches would be cut.
+  const bool lattice = du.size() != 12;
+  if (!(area > 0.0) && !lattice) return whole;
   double change = u.height + v.height;
   if (area > 0.0) change = std::min(change, whole * (u.height * v.longest() + v.height * u.longest()) / area);
   return std::min(whole, across + change);
@@ -141,8 +158,8 @@ double quad_chord_bound(const double* points, CurveSides curves) {
   }
   const double across = (uu.across + 2.0 * uv.across + vv.across) / 8.0;
   const double whole = (uu.whole() + 2.0 * uv.whole() + vv.whole()) / 8.0;
-  return std::max(combine(across, whole, Run(du, normal), Run(dv, normal), normal),
-                  curves_bound(points, curves, kQuadSides));
+  if ((curves & kEndSides) != 0) return whole;
+  return std::max(combine(across, whole, du, dv, normal), curves_bound(points, curves, kQuadSides));
 }
 
 double triangle_chord_bound(const double* points, CurveSides curves) {
@@ -160,7 +177,8 @@ double triangle_chord_bound(const double* points, CurveSides curves) {
   }
   const double across = triangle_bound(bends[0].across, bends[1].across, bends[2].across);
   const double whole = triangle_bound(bends[0].whole(), bends[1].whole(), bends[2].whole());
-  return std::max(combine(across, whole, Run(differences[0], normal), Run(differences[1], normal), normal),
+  if ((curves & kEndSides) != 0) return whole;
+  return std::max(combine(across, whole, differences[0], differences[1], normal),
                   curves_bound(points, curves, kTriangleSides));
 }
 

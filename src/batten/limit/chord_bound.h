@@ -3,8 +3,10 @@
 
 namespace batten {
 
-/// Which sides of a cell lie on a boundary or a crease: bit s for side s.
+/// Which sides of a cell lie on a boundary or a crease: bit s for side s. Bit s + 4: where the surface ends or folds
+/// though its rules go on, beside holes and at vertices of two faces; there all second derivatives count in full.
 using CurveSides = unsigned;
+inline constexpr unsigned kEndSides = 0xF0U;
 
 /// An upper bound for the distance between a patch and any triangles or quads that cover it with their corners on it,
 /// at their own parameters: from the second differences of its control points, which the second derivatives are means

@@ -37,9 +37,10 @@ struct Expansion {
 /// Goes through the cells of base faces, depth first. One object for each thread at work.
 class CellWalk {
  public:
-  CellWalk(const CellNets& nets, const LimitSurface& surface, const ChordRule& rule)
+  CellWalk(const CellNets& nets, const LimitSurface& surface, const CellForest& forest, const ChordRule& rule)
       : nets_(nets),
         surface_(surface),
+        forest_(forest),
         rule_(rule),
         corners_(nets.quads() ? 4 : 3),
         levels_(static_cast<std::size_t>(CellForest::kMostLevels + kLookAhead) + 4) {}
@@ -61,13 +62,18 @@ class CellWalk {
     const Topology& base = nets_.base();
     CurveSides curves = 0;
     for (int s = 0; s < corners_; ++s) {
-      if (base.edge_sharpness(base.edge(base.face_begin(face) + s)) > 0.0F) curves |= 1U << s;
+      const Index h = base.face_begin(face) + s;
+      if (base.edge_sharpness(base.edge(h)) > 0.0F) curves |= 1U << s;
+      const bool at_hole = base.twin(h) >= 0 && forest_.is_left_out(base.face(base.twin(h)));
+      const auto folds = [&](Index v) { return !base.is_boundary_vertex(v) && base.vertex_face_count(v) == 2; };
+      if (at_hole || folds(base.origin(h)) || folds(base.destination(h))) curves |= 17U << s;
     }
     return curves;
   }
   CurveSides child_curves(CurveSides curves, int child) const {
     if (child == corners_) return 0;
-    return curves & (1U << child | 1U << (child + corners_ - 1) % corners_);
+    const CurveSides own = 1U << child | 1U << (child + corners_ - 1) % corners_;
+    return curves & (own | own << 4);
   }
   Corners child_corners(const Corners& corners, const Expansion& expansion, int child) const {
     Corners result = corners;
@@ -94,7 +100,7 @@ class CellWalk {
   void expand(const CellNet& net, Expansion& expansion) const;
   double deviation(const Corners& corners, const Expansion& expansion, CurveSides curves) const;
   double centre_deviation(const CellNet& net, const Corners& corners, const Expansion& expansion) const;
-  double hull_bound(const CellNet& net) const;
+  double hull_bound(const CellNet& net, CurveSides curves) const;
   double inner_bound(const Corners& corners, CurveSides curves, int look_ahead, std::size_t depth);
   double bound(const CellNet& net, const Corners& corners, CurveSides curves, int look_ahead, std::size_t depth);
   bool beyond(const CellNet& net, const Corners& corners, CurveSides curves);
@@ -102,6 +108,7 @@ class CellWalk {
 
   const CellNets& nets_;
   const LimitSurface& surface_;
+  const CellForest& forest_;
   const ChordRule& rule_;
   int corners_;
   CellNet root_;
@@ -172,12 +179,13 @@ double CellWalk::centre_deviation(const CellNet& net, const Corners& corners, co
 }
 
 /// The height of the control points, and so of the surface and of faces on it, over the cell's plane.
-double CellWalk::hull_bound(const CellNet& net) const {
+double CellWalk::hull_bound(const CellNet& net, CurveSides curves) const {
   const auto point = [&](int i) -> Point { return net.points.row(i).transpose(); };
   const Point normal = (corners_ == 4 ? (point(2) - point(0)).cross(point(3) - point(1))
                                       : (point(1) - point(0)).cross(point(2) - point(0)))
                            .normalized();
-  if (normal.squaredNorm() == 0.0) return (net.points.rowwise() - net.points.row(0)).rowwise().norm().maxCoeff();
+  if (normal.squaredNorm() == 0.0 || (curves & kEndSides) != 0)
+    return (net.points.rowwise() - net.points.row(0)).rowwise().norm().maxCoeff();
   const Eigen::VectorXd heights = (net.points.rowwise() - net.points.row(0)) * normal;
   return heights.maxCoeff() - heights.minCoeff();
 }
@@ -197,7 +205,7 @@ double CellWalk::inner_bound(const Corners& corners, CurveSides curves, int look
 double CellWalk::bound(const CellNet& net, const Corners& corners, CurveSides curves, int look_ahead,
                        std::size_t depth) {
   if (net.kind == CellNet::Kind::Patch) return patch_bound(net, curves);
-  if (net.kind == CellNet::Kind::Ring && look_ahead <= 0) return hull_bound(net);
+  if (net.kind == CellNet::Kind::Ring && look_ahead <= 0) return hull_bound(net, curves);
   expand(net, levels_[depth]);
   const double own = deviation(corners, levels_[depth], curves);
   return own + inner_bound(corners, curves, look_ahead, depth);
@@ -273,7 +281,7 @@ Index cut_by_chord(const CellNets& nets, const LimitSurface& surface, const Poin
       faces,
       [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
         BlockFlags& block = blocks[static_cast<std::size_t>(begin / kFacesPerBlock)];
-        CellWalk walk(nets, surface, rule);
+        CellWalk walk(nets, surface, forest, rule);
         for (auto f = static_cast<Index>(begin); f < end && leaves <= rule.max_leaves; ++f) {
           if (forest.is_left_out(f)) continue;
           const std::int64_t before = walk.leaves();
@@ -303,7 +311,7 @@ Index cut_by_chord(const CellNets& nets, const LimitSurface& surface, const Poin
 bool roots_suffice(const CellNets& nets, const LimitSurface& surface, const Points& points, double tolerance,
                    const CellForest& forest) {
   const ChordRule rule{tolerance, false, 0, forest.base().face_count()};
-  CellWalk walk(nets, surface, rule);
+  CellWalk walk(nets, surface, forest, rule);
   for (Index f = 0; f < forest.base().face_count(); ++f) {
     if (!forest.is_left_out(f) && walk.exceeds(f, corners_of(forest, points, f))) return false;
   }
