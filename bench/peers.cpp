@@ -1,5 +1,5 @@
-/// The tessellator against other libraries on the same work, in turn, in one run. Writes its part of
-/// docs/performance.md.
+/// peers_bench [PAGE [jets]]: the tessellator, or jets, against other libraries on the same work, in turn, in one run.
+/// Writes its part of docs/performance.md.
 #include "bench/peers.h"
 
 #include <cstdio>
@@ -168,7 +168,7 @@ std::string peers_section() {
          fresh.text() +
          "\nInto memory that is there already, connectivity kept. OpenSubdiv's stencils as Debian builds them, on one "
          "thread,\nfour floats a point.\n\n" +
-         reused.text() + "\n" + jets_section();
+         reused.text();
 }
 
 }  // namespace batten::bench
@@ -179,15 +179,14 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "set BATTEN_DATA to the folder of the test data, whose meshes these figures are about\n");
     return 1;
   }
-  if (argc > 1 && std::string(argv[1]) == "--jets") {
-    std::printf("%s", jets_section().c_str());
-    return 0;
-  }
+  const bool jets = argc > 2 && std::string(argv[2]) == "jets";
   const std::string tunables = std::getenv("GLIBC_TUNABLES") == nullptr ? "" : std::getenv("GLIBC_TUNABLES");
   const bool huge = tunables.find("hugetlb=1") != std::string::npos;
-  const std::string part = std::string("## Refinement beside other libraries") +
-                           (huge ? ", with huge pages for everyone (GLIBC_TUNABLES=glibc.malloc.hugetlb=1)" : "") +
-                           "\n\n" + machine() + "\n" + peers_section() + "\n";
+  const std::string head = jets ? "## Jets of the limit surface beside OpenSubdiv's Bfr"
+                           : huge
+                               ? "## Refinement, with huge pages for everyone (GLIBC_TUNABLES=glibc.malloc.hugetlb=1)"
+                               : "## Refinement beside other libraries";
+  const std::string part = head + "\n\n" + machine() + "\n" + (jets ? jets_section() : peers_section()) + "\n";
   std::printf("%s", part.c_str());
-  if (argc > 1) write_part(argv[1], huge ? "peers, huge pages" : "peers", part);
+  if (argc > 1) write_part(argv[1], jets ? "peers, jets" : huge ? "peers, huge pages" : "peers", part);
 }

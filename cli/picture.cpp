@@ -96,7 +96,8 @@ Scene surface_scene(const Subject& subject, Coloring coloring, const Progress& p
   scene.surface.points = LimitMatrix(topology, scheme, {}, progress).apply(values, progress);
   const Values normals = limit_normals(topology, scheme, values, LimitMasks::Exact, progress).corners;
   if (curved) {
-    const Curvature curvature = estimate_curvature(topology, scene.surface.points, normals);
+    const LimitSurface surface(control, subject.scheme, subject.control.points);
+    const Curvature curvature = limit_curvature(surface, topology);
     field = coloring == Coloring::Mean ? curvature.mean : curvature.gaussian;
   }
   std::vector<Index> rows;

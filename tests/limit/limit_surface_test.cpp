@@ -154,6 +154,61 @@ TEST(LimitSurface, HasNoJumpsAlongATrianglesThirdSide) {
   }
 }
 
+/// Neighbours agree on the points of their common edge, and on its normals where it is not sharp.
+TEST(LimitSurface, IsContinuousAcrossFacesAndSmoothButForCreases) {
+  test::for_each_sample([](const Mesh& mesh, const Scheme& scheme, const std::string& name) {
+    if (name.find("dihedron") != std::string::npos) return;  // no normals at valence 2
+    SCOPED_TRACE(name);
+    const Topology topology(mesh);
+    const LimitSurface surface(topology, scheme, mesh.points);
+    const Topology& base = surface.base();
+    const bool quads = scheme.kind != SchemeKind::Loop;
+    const auto at = [&](Index h, double t) {
+      const double us[4] = {0.0, 1.0, quads ? 1.0 : 0.0, 0.0};
+      const double vs[4] = {0.0, 0.0, 1.0, 1.0};
+      const Index size = base.face_size(base.face(h));
+      const Index from = h - base.face_begin(base.face(h));
+      const Index to = (from + 1) % size;
+      return surface.jet({base.face(h), (1.0 - t) * us[from] + t * us[to], (1.0 - t) * vs[from] + t * vs[to]});
+    };
+    for (Index e = 0; e < base.edge_count(); ++e) {
+      if (base.is_boundary_edge(e)) continue;
+      const Index h = base.edge_half_edge(e);
+      for (const double t : {0.0, 0.125, 0.5, 0.8125, 1.0}) {
+        const Jet here = at(h, t);
+        const Jet there = at(base.twin(h), 1.0 - t);
+        EXPECT_LE((here.point - there.point).norm(), 1e-13 * bounding_diagonal(mesh.points)) << "edge " << e;
+        if (base.edge_sharpness(e) >= kInfiniteSharpness || t == 0.0 || t == 1.0) continue;
+        const Eigen::Vector3d normal = here.du.cross(here.dv).normalized();
+        EXPECT_LE((normal - there.du.cross(there.dv).normalized()).norm(), 1e-9) << "edge " << e << " at " << t;
+      }
+    }
+  });
+}
+
+TEST(LimitSurface, MovesWithItsControlPoints) {
+  // Weights sum to 1 and their derivatives to 0: an affine map of the control points is one of the surface.
+  Eigen::Matrix3d map;
+  map << 1.0, 0.5, -0.25, 0.125, -2.0, 0.75, 0.0, 0.5, 1.5;
+  const Eigen::Vector3d shift(3.0, -1.0, 2.0);
+  test::for_each_sample([&](const Mesh& mesh, const Scheme& scheme, const std::string& name) {
+    SCOPED_TRACE(name);
+    const Topology topology(mesh);
+    const LimitSurface surface(topology, scheme, mesh.points);
+    Points moved = mesh.points * map.transpose();
+    moved.rowwise() += shift.transpose();
+    const LimitSurface image(topology, scheme, moved);
+    for (const SurfacePlace& place : random_places(surface.base(), scheme.kind != SchemeKind::Loop, 100, 0.5)) {
+      const Jet jet = surface.jet(place);
+      const Jet other = image.jet(place);
+      const double size = 1e-13 * (1.0 + bounding_diagonal(moved));
+      EXPECT_LE((map * jet.point + shift - other.point).norm(), size);
+      EXPECT_LE((map * jet.du - other.du).norm(), 10.0 * size);
+      EXPECT_LE((map * jet.dv - other.dv).norm(), 10.0 * size);
+    }
+  });
+}
+
 /// At an extraordinary vertex the tangent plane is what the planes nearby tend to.
 TEST(LimitSurface, HasATangentPlaneAtExtraordinaryVertices) {
   for (const Index valence : {3, 4, 5, 6, 7, 8, 12, 64, 360}) {

@@ -1,86 +1,123 @@
 #include "batten/limit/curvature.h"
 
-#include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
 
 namespace batten {
+
 namespace {
 
-using Eigen::Matrix3d;
-using Eigen::Vector2d;
-using Eigen::Vector3d;
+/// A child's place in its base face: the corner where its first half-edge starts, and its two sides from there.
+struct Frame {
+  Eigen::Vector2d origin{0.0, 0.0};
+  Eigen::Vector2d u{1.0, 0.0};
+  Eigen::Vector2d v{0.0, 1.0};
 
-/// Least squares for S = (a b; b c) in the plane across `normal`, each neighbour weighted by its distance to the -2.
-class ShapeFit {
- public:
-  explicit ShapeFit(const Vector3d& normal) : side_(normal.unitOrthogonal()), rise_(normal.cross(side_)) {}
-
-  void add(const Vector3d& step, const Vector3d& turn) {
-    const Vector2d d(side_.dot(step), rise_.dot(step));
-    const Vector2d t(side_.dot(turn), rise_.dot(turn));
-    const double square = d.squaredNorm();
-    if (!(square > 0.0)) return;
-    // S d = (a x + b y, b x + c y) = t
-    const Vector3d first(d.x(), d.y(), 0.0);
-    const Vector3d second(0.0, d.x(), d.y());
-    products_ += (first * first.transpose() + second * second.transpose()) / square;
-    right_ += (first * t.x() + second * t.y()) / square;
+  Eigen::Vector2d corner(Index c, bool quads) const {
+    if (c == 0) return origin;
+    if (c == 1) return origin + u;
+    return quads && c == 2 ? Eigen::Vector2d(origin + u + v) : Eigen::Vector2d(origin + v);
   }
-
-  /// False where the neighbours lie along one line.
-  bool solve(double& mean, double& gaussian) const {
-    constexpr double kSmallest = 1e-6;
-    const double scale = products_.trace();
-    if (!(products_.determinant() > kSmallest * scale * scale * scale)) return false;
-    const Vector3d s = products_.inverse() * right_;
-    mean = 0.5 * (s[0] + s[2]);
-    gaussian = s[0] * s[2] - s[1] * s[1];
-    return true;
-  }
-
- private:
-  Vector3d side_;
-  Vector3d rise_;
-  Matrix3d products_ = Matrix3d::Zero();
-  Vector3d right_ = Vector3d::Zero();
 };
+
+/// Refinement's children: one at each corner, and Loop's one in the middle. All numbers are dyadic, so exact.
+Frame child_of(const Frame& parent, Index child, bool quads) {
+  const Index corners = quads ? 4 : 3;
+  Frame frame;
+  if (child == corners) {  // from the middle of the first side to those of the second and the third
+    frame.origin = parent.origin + 0.5 * parent.u;
+    frame.u = 0.5 * parent.v;
+    frame.v = 0.5 * (parent.v - parent.u);
+    return frame;
+  }
+  frame.origin = parent.corner(child, quads);
+  frame.u = 0.5 * (parent.corner((child + 1) % corners, quads) - frame.origin);
+  frame.v = 0.5 * (parent.corner((child + corners - 1) % corners, quads) - frame.origin);
+  return frame;
+}
+
+/// Steps from the base to the refined mesh; -1: from the refined mesh to the base.
+int levels_between(const Topology& base, const Topology& refined) {
+  if (refined.half_edge_count() == base.face_count() && refined.face_count() < base.face_count()) return -1;
+  std::int64_t faces = base.face_count();
+  int levels = 0;
+  while (faces > 0 && faces < refined.face_count()) {
+    faces *= 4;
+    ++levels;
+  }
+  if (faces == refined.face_count()) return levels;
+  throw Error(ErrorCode::BadShape, "a mesh of " + std::to_string(refined.face_count()) +
+                                       " faces is no refinement of the surface's base, which has " +
+                                       std::to_string(base.face_count()));
+}
+
+SurfacePlace corner_place(Index face, Index corner, int levels, bool quads) {
+  Frame frame;
+  for (int level = levels - 1; level >= 0; --level) frame = child_of(frame, (face >> (2 * level)) & 3, quads);
+  const Eigen::Vector2d at = frame.corner(corner, quads);
+  return {face >> (2 * levels), at.x(), at.y()};
+}
+
+/// In place of NaN at a vertex: the mean over its neighbours that have a number.
+double mean_around(const Topology& topology, const Eigen::VectorXd& field, Index vertex) {
+  double sum = 0.0;
+  int count = 0;
+  topology.for_each_outgoing(vertex, [&](Index h) {
+    const double value = field[topology.destination(h)];
+    if (std::isnan(value)) return;
+    sum += value;
+    ++count;
+  });
+  return count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
+}
 
 }  // namespace
 
-Curvature estimate_curvature(const Topology& topology, ConstValuesRef points, ConstValuesRef corner_normals) {
-  require_vertex_rows(topology, points);
-  if (points.cols() != 3 || corner_normals.cols() != 3 || corner_normals.rows() != topology.half_edge_count())
-    throw Error(ErrorCode::BadShape, "curvature needs V-by-3 points and one normal of 3 numbers for each half-edge");
-  constexpr double kSameSide = 0.999;  // cosine between the normals at a vertex that count as one
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  Curvature curvature{Eigen::VectorXd::Constant(points.rows(), none), Eigen::VectorXd::Constant(points.rows(), none)};
-  const auto point = [&](Index v) { return Vector3d(points.row(v).transpose()); };
-  const auto normal = [&](Index h) { return Vector3d(corner_normals.row(h).transpose()); };
-  parallel_for(topology.vertex_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+Buffer<SurfacePlace> vertex_places(const LimitSurface& surface, const Topology& refined) {
+  const Topology& base = surface.base();
+  const bool quads = base.uniform_face_size() != 3;
+  const int levels = levels_between(base, refined);
+  Buffer<SurfacePlace> places(static_cast<std::size_t>(refined.vertex_count()));
+  parallel_for(refined.vertex_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (auto v = static_cast<Index>(begin); v < end; ++v) {
-      Index start = -1;
-      if (!topology.is_isolated(v)) {
-        topology.for_each_outgoing(
-            v, [&](Index h) { start = start < 0 && !topology.is_hole(topology.face(h)) ? h : start; });
+      const Index h = refined.vertex_half_edge(v);
+      if (h < 0) {
+        places[v] = {-1, 0.0, 0.0};
+      } else if (levels < 0) {
+        places[v] = {h, 0.0, 0.0};  // quad h of the first refinement starts at the origin of half-edge h
+      } else {
+        const Index face = refined.face(h);
+        places[v] = corner_place(face, h - refined.face_begin(face), levels, quads);
       }
-      if (start < 0 || normal(start).squaredNorm() < 0.5) continue;
-      const Vector3d here = normal(start);
-      ShapeFit fit(here);
-      topology.for_each_outgoing(v, [&](Index h) {
-        if (topology.is_hole(topology.face(h)) || normal(h).dot(here) < kSameSide) return;
-        for (Index i = topology.next(h); i != h; i = topology.next(i)) {
-          if (normal(i).squaredNorm() > 0.5) fit.add(point(topology.origin(i)) - point(v), normal(i) - here);
-        }
-      });
-      fit.solve(curvature.mean[v], curvature.gaussian[v]);
     }
   });
-  return curvature;
+  return places;
+}
+
+Curvature limit_curvature(const LimitSurface& surface, const Topology& refined) {
+  const Buffer<SurfacePlace> places = vertex_places(surface, refined);
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  Curvature exact{Eigen::VectorXd::Constant(refined.vertex_count(), none),
+                  Eigen::VectorXd::Constant(refined.vertex_count(), none)};
+  parallel_for(refined.vertex_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (std::ptrdiff_t v = begin; v < end; ++v) {
+      if (places[v].face < 0) continue;
+      const PointCurvature curvature = curvature_of(surface.jet(places[v]));
+      exact.mean[v] = curvature.mean;
+      exact.gaussian[v] = curvature.gaussian;
+    }
+  });
+  Curvature filled = exact;
+  for (Index v = 0; v < refined.vertex_count(); ++v) {
+    if (places[v].face < 0 || !std::isnan(exact.mean[v])) continue;
+    filled.mean[v] = mean_around(refined, exact.mean, v);
+    filled.gaussian[v] = mean_around(refined, exact.gaussian, v);
+  }
+  return filled;
 }
 
 }  // namespace batten

@@ -1,28 +1,26 @@
-/// \file Mean and Gaussian curvature of a surface from exact points and normals on it.
-///
-/// At a point, the normal changes along the surface by dn = S dp, where S is the shape operator in the tangent plane.
-/// Here S is the symmetric 2-by-2 matrix that fits best, over the vertices of the faces around, what the normals do.
+/// \file Mean and Gaussian curvature of the limit surface at the vertices of a refined mesh.
 #pragma once
 #include <Eigen/Core>
 
-#include "batten/mesh/topology.h"
-#include "batten/types.h"
+#include "batten/buffer.h"
+#include "batten/limit/limit_surface.h"
 
 namespace batten {
 
+/// Where the vertices of a refined mesh lie on the surface. refined: surface.base() after any number of Refinement
+/// steps, or, where the base is the first of them, the control mesh itself. A vertex on a border between faces has its
+/// place in the face where its fan starts; one without a face has face -1. O(V levels). Throws Error(BadShape) where
+/// the face counts do not belong together.
+Buffer<SurfacePlace> vertex_places(const LimitSurface& surface, const Topology& refined);
+
 struct Curvature {
-  Eigen::VectorXd mean;      ///< V, half the trace of S, 1/unit: 1/r on a sphere with outward normals
-  Eigen::VectorXd gaussian;  ///< V, the determinant of S, 1/unit^2
+  Eigen::VectorXd mean;      ///< V, 1/unit: 1/r on a sphere with outward normals
+  Eigen::VectorXd gaussian;  ///< V, 1/unit^2
 };
 
-/// points: V-by-3, on the surface. corner_normals: H-by-3, unit normals per half-edge at its origin, on its face's side
-/// (LimitNormals::corners): faces on the other side of a crease do not count. At a vertex on a crease the result is
-/// that of the side where its fan starts; NaN where there is no normal or no face that is not a hole.
-///
-/// The error falls with the square of the edges' length where the faces around are nearly symmetric (refined meshes
-/// are, but at extraordinary vertices and boundaries, where it falls linearly). A Catmull-Clark or Loop surface itself
-/// has no curvature at its extraordinary points: there numbers grow or drift from level to level.
-/// O(H). Throws Error(BadShape).
-Curvature estimate_curvature(const Topology& topology, ConstValuesRef points, ConstValuesRef corner_normals);
+/// Exact, by the surface's second derivatives; on a crease, that of the side where the vertex's fan starts. At
+/// extraordinary vertices, where the surface has none, the mean over the neighbours that have one. NaN where nothing
+/// does: no face, no normal. Threaded. Throws Error(BadShape) as vertex_places().
+Curvature limit_curvature(const LimitSurface& surface, const Topology& refined);
 
 }  // namespace batten

@@ -1,0 +1,54 @@
+/// Adaptive tessellation of OpenSubdiv's shapes: no cracks, and the tolerance asked for.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "batten/limit/adaptive.h"
+#include "batten/refine/refinement.h"
+#include "conformance/conformance_data.h"
+
+namespace batten::test {
+namespace {
+
+/// Their holes leave a vertex with two fans of faces.
+const std::set<std::string> kFansApart{"catmark_hole_test4"};
+
+class AdaptiveShapes : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Conformance, AdaptiveShapes, ::testing::ValuesIn(shape_names()), test_name);
+
+TEST_P(AdaptiveShapes, KeepTheirToleranceWithoutCracks) {
+  BATTEN_REQUIRE_DATA();
+  const Mesh mesh = load_shape(GetParam());
+  const Scheme scheme = scheme_of_shape(GetParam(), mesh);
+  const Topology topology(mesh);
+  const LimitSurface surface(topology, scheme, mesh.points);
+  for (const FaceKind kind : {FaceKind::Triangles, FaceKind::Quads}) {
+    AdaptiveOptions options;
+    options.chord = 5e-4 * bounding_diagonal(mesh.points);
+    options.faces = kind;
+    const AdaptiveMesh result = tessellate_adaptively(topology, scheme, mesh.points, options);
+    EXPECT_EQ(result.unmet, 0);
+    EXPECT_LE(measured_chord(surface, result), options.chord);
+    if (kFansApart.count(GetParam()) > 0) {
+      EXPECT_THROW(Topology{result.mesh}, Error) << "no longer the exception that it was";
+      continue;
+    }
+    // The gate refuses edges of three faces and more; a crack would be a boundary that uniform refinement has not.
+    const Topology found(result.mesh);
+    const auto boundary_edges = [](const Topology& of) {
+      Index edges = 0;
+      for (Index e = 0; e < of.edge_count(); ++e) {
+        const Index h = of.edge_half_edge(e);
+        edges += of.is_boundary_edge(e) && !of.is_hole(of.face(h)) ? 1 : 0;
+      }
+      return edges;
+    };
+    const Topology drawn = with_surface_holes(topology, scheme);
+    if (!drawn.has_holes()) {
+      EXPECT_EQ(boundary_edges(found) > 0, boundary_edges(topology) > 0);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace batten::test
