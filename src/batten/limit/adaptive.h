@@ -12,6 +12,7 @@
 
 namespace batten {
 
+/// What the result consists of.
 enum class FaceKind {
   Quads,  ///< quads only, from bases of triangles too
   Triangles

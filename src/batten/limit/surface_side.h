@@ -4,6 +4,7 @@
 
 namespace batten {
 
+/// Which side of a surface a point lies on.
 enum class SurfaceSide { Outside, Inside };
 
 /// By the normal at the nearest point, which faces turned counter-clockwise have on the outside. On a crease or a
