@@ -37,6 +37,9 @@ void check_interpolant(const Topology& topology, const Scheme& scheme, const Poi
   const LimitMatrix limit(topology, scheme, {LimitMasks::Exact, result.vertex_alpha});
   const double size = result.control.cwiseAbs().maxCoeff();
   const double missed = (limit.apply(result.control) - targets).rowwise().norm().maxCoeff();
+  const double diagonal = bounding_diagonal(targets);
+  require(result.report.converged || result.max_movement <= 1e6 * diagonal,
+          "control points that are nothing but rounding");
   require(std::abs(missed - result.max_error) <= 1e-12 * size, "an error that is not the one reported");
   const RefinedSurface ordinary = ordinary_surface(topology, scheme, result);
   require(ordinary.values.allFinite(), "an ordinary surface that is not finite");

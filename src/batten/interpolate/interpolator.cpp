@@ -69,6 +69,10 @@ void append(SolveReport& report, const SolveReport& next, const char* joint) {
   report.errors = {};  // measured before the values changed again
 }
 
+/// Control points of a system with a solution stay within some hundred diagonals of their targets. Where they have gone
+/// farther without arriving, the system was singular, and what they hold is rounding.
+constexpr double kFarthest = 1e6;
+
 }  // namespace
 
 struct Interpolator::Parts {
@@ -304,6 +308,12 @@ Interpolant Interpolator::solve(ConstValuesRef targets, const Progress& progress
   parts.measure(targets, result);
   // Judged by what was measured over all rows, not by what the last of several solvers thought of its part.
   result.report.converged = result.max_error <= stop.tolerance + floor;
+  if (!result.report.converged && !(result.max_movement <= kFarthest * diagonal)) {
+    result.control = targets;
+    result.report.errors = {};
+    result.report.method_name += ", which diverged: the targets themselves";
+    parts.measure(targets, result);
+  }
   return result;
 }
 

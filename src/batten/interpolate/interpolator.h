@@ -57,7 +57,8 @@ class Interpolator {
   const LimitMatrix& limit_matrix() const;
 
   /// targets: V-by-k, row i for vertex i, finite. Safe to call from several threads.
-  /// Where the tolerance is not reached, report.converged is false and the errors say what was.
+  /// Where the tolerance is not reached, report.converged is false and the errors say what was; control points that
+  /// diverged are not given, but the targets in their place.
   /// Throws Error: BadShape, NotFinite, SingularSystem, Cancelled.
   Interpolant solve(ConstValuesRef targets, const Progress& progress = {}) const;
 
