@@ -9,6 +9,7 @@
 #include "batten/limit/nearest_point.h"
 #include "batten/limit/surface_mesh.h"
 #include "batten/limit/surface_side.h"
+#include "batten/limit/surface_weights.h"
 #include "batten/limit/tessellator.h"
 #include "batten/mesh/check.h"
 #include "batten/mesh/mesh.h"

@@ -12,6 +12,7 @@
 #include "batten/limit/spline_jet.h"
 #include "batten/limit/vertex_limit.h"
 #include "batten/parallel/parallel.h"
+#include "batten/refine/halving.h"
 #include "batten/refine/ring_steps.h"
 
 namespace batten {
@@ -27,36 +28,6 @@ constexpr int kMostHalvings = 53;
 /// all kept halvings where few faces are irregular, one or two where all are.
 constexpr int kMostKeptHalvings = 8;
 constexpr std::size_t kKeptPointsPerVertex = 96;
-
-/// One of four children, and how much faster its parameters run: a triangle's middle child is turned, backwards.
-struct Step {
-  int child;
-  double factor;
-};
-Step halve(bool quads, double& u, double& v) {
-  u *= 2.0;
-  v *= 2.0;
-  if (quads) {
-    static constexpr int kChildren[4] = {0, 1, 3, 2};
-    const int right = u >= 1.0 ? 1 : 0;
-    const int up = v >= 1.0 ? 1 : 0;
-    u -= right;
-    v -= up;
-    return {kChildren[right + 2 * up], 2.0};
-  }
-  if (u >= 1.0) {
-    u -= 1.0;
-    return {1, 2.0};
-  }
-  if (v >= 1.0) {
-    v -= 1.0;
-    return {2, 2.0};
-  }
-  if (u + v <= 1.0) return {0, 2.0};
-  u = 1.0 - u;
-  v = 1.0 - v;
-  return {3, -2.0};
-}
 
 /// The corner that a place is nearest to, and how many halvings in a row lead to the child there.
 struct Approach {
@@ -167,7 +138,7 @@ struct LimitSurface::Parts {
 
   void lay_out_trees();
   void set_control(ConstValuesRef control);
-  void check(const SurfacePlace& place) const;
+  void check(const SurfacePlace& place) const { require_place(base(), quads, place); }
   const Piece& locate(const SurfacePlace& place, double& u, double& v) const;
   void set(const SurfacePlace& place, Workspace& work, Jet& jet) const;
   void patch_jet(double u, double v, const Double4* from, const Index* rows, PatchJet& jet) const {
@@ -238,19 +209,6 @@ void LimitSurface::Parts::set_control(ConstValuesRef control) {
         }
       },
       256);
-}
-
-void LimitSurface::Parts::check(const SurfacePlace& place) const {
-  const Index face_count = base().face_count();
-  const double most = quads ? 1.0 : 1.0 - place.v;
-  const bool inside = place.u >= 0.0 && place.v >= 0.0 && place.u <= most && place.v <= 1.0;
-  if (inside && place.face >= 0 && place.face < face_count) return;
-  if (place.face < 0 || place.face >= face_count) {
-    throw Error(ErrorCode::IndexOutOfRange, "face " + std::to_string(place.face) + " does not exist; the base has " +
-                                                std::to_string(face_count) + " faces");
-  }
-  throw Error(ErrorCode::BadArgument,
-              "(u, v) = (" + std::to_string(place.u) + ", " + std::to_string(place.v) + ") is not in the face");
 }
 
 /// The piece that a place lies in; (u, v) become its own parameters.
@@ -327,7 +285,7 @@ void LimitSurface::Parts::set_on_ring(const Piece& piece, double u, double v, do
       node = jump.child.node;
     }
     while (node >= 0) {
-      const Step step = halve(quads, u, v);
+      const Halving step = halve(quads, u, v);
       ++halvings;
       scale *= step.factor;
       const RingBlocks::Node::Child& child = blocks->node(node).children[step.child];
@@ -337,7 +295,7 @@ void LimitSurface::Parts::set_on_ring(const Piece& piece, double u, double v, do
     }
   }
   for (; at.kind != RingSteps::kPatch && halvings < kMostHalvings; ++halvings) {
-    const Step step = halve(quads, u, v);
+    const Halving step = halve(quads, u, v);
     scale *= step.factor;
     descend(step.child, work, at);
   }
@@ -366,8 +324,8 @@ void LimitSurface::Parts::descend(int number, Workspace& work, Descent& at) cons
 void LimitSurface::Parts::set_at_vertex(const Piece& piece, double u, double v, Jet& jet) const {
   const Topology& topology = pieces.topology(piece.level);
   Index half_edge = piece.half_edge;
-  const int corner = quads ? (u < 0.5 ? (v < 0.5 ? 0 : 3) : (v < 0.5 ? 1 : 2)) : (u > 0.5 ? 1 : v > 0.5 ? 2 : 0);
-  for (int c = 0; c < corner; ++c) half_edge = topology.next(half_edge);
+  const Index corner = nearest_corner(quads, u, v);
+  for (Index c = 0; c < corner; ++c) half_edge = topology.next(half_edge);
   const auto sum = [&](TileValue value) {
     Double4 total{};
     visit_vertex_limit(topology, pieces.scheme(), value, half_edge,
@@ -392,6 +350,18 @@ void LimitSurface::Parts::set(const SurfacePlace& place, Workspace& work, Jet& j
   PatchJet sums;
   patch_jet(u, v, points[piece.level].data(), pieces.rows(piece), sums);
   set_jet(sums, Double4{}, scale, jet);
+}
+
+void require_place(const Topology& base, bool quads, const SurfacePlace& place) {
+  const double most = quads ? 1.0 : 1.0 - place.v;
+  const bool inside = place.u >= 0.0 && place.v >= 0.0 && place.u <= most && place.v <= 1.0;
+  if (inside && place.face >= 0 && place.face < base.face_count()) return;
+  if (place.face < 0 || place.face >= base.face_count()) {
+    throw Error(ErrorCode::IndexOutOfRange, "face " + std::to_string(place.face) + " does not exist; the base has " +
+                                                std::to_string(base.face_count()) + " faces");
+  }
+  throw Error(ErrorCode::BadArgument,
+              "(u, v) = (" + std::to_string(place.u) + ", " + std::to_string(place.v) + ") is not in the face");
 }
 
 LimitSurface::LimitSurface(const Topology& topology, const Scheme& scheme, ConstValuesRef control) {

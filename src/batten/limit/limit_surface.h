@@ -24,6 +24,9 @@ struct SurfacePlace {
   double v = 0.0;
 };
 
+/// Throws Error(IndexOutOfRange, BadArgument) for a face or parameters that do not exist. base: of quads or triangles.
+void require_place(const Topology& base, bool quads, const SurfacePlace& place);
+
 /// Point and derivatives. At a vertex that is not regular, and on it only, du and dv span the tangent plane (du x dv
 /// points outward) but are no derivatives, and there are no second ones: then `regular` is false and they are zero.
 struct Jet {

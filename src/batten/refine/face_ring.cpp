@@ -114,27 +114,29 @@ bool FaceRing::gather(const Topology& topology, const Scheme& scheme, Index half
 Cutting cut_out(const Topology& from, const Buffer<Index>& half_edges) {
   TopologyTables tables;
   Buffer<Index> rows;
-  const Index corners = from.face_size(from.face(half_edges.front()));
-  tables.uniform_face_size = corners;
-  const std::size_t count = half_edges.size() * static_cast<std::size_t>(corners);
+  const auto corners_of = [&](std::size_t f) { return from.face_size(from.face(half_edges[f])); };
+  tables.uniform_face_size = corners_of(0);
+  tables.face_offsets = {0};
+  for (std::size_t f = 0; f < half_edges.size(); ++f) {
+    if (corners_of(f) != tables.uniform_face_size) tables.uniform_face_size = 0;
+    tables.face_offsets.push_back(tables.face_offsets.back() + corners_of(f));
+  }
+  const auto count = static_cast<std::size_t>(tables.face_offsets.back());
   Renumbering new_half_edge(from.half_edge_count(), count);
-  tables.face_offsets.resize(half_edges.size() + 1);
   tables.origins.resize(count);
   tables.twins.resize(count);
   tables.faces.resize(count);
   tables.edges.resize(count);
   for (std::size_t f = 0; f < half_edges.size(); ++f) {
-    tables.face_offsets[f] = static_cast<Index>(f) * corners;
     Index old = half_edges[f];
-    for (Index c = 0; c < corners; ++c, old = from.next(old))
-      new_half_edge.set(old, static_cast<Index>(f) * corners + c);
+    for (Index h = tables.face_offsets[f]; h < tables.face_offsets[f + 1]; ++h, old = from.next(old)) {
+      new_half_edge.set(old, h);
+    }
   }
-  tables.face_offsets[half_edges.size()] = static_cast<Index>(count);
   Renumbering new_vertex(from.vertex_count(), count);
   for (std::size_t f = 0; f < half_edges.size(); ++f) {
     Index old = half_edges[f];
-    for (Index c = 0; c < corners; ++c, old = from.next(old)) {
-      const Index h = static_cast<Index>(f) * corners + c;
+    for (Index h = tables.face_offsets[f]; h < tables.face_offsets[f + 1]; ++h, old = from.next(old)) {
       const Index v = from.origin(old);
       if (new_vertex[v] < 0) {
         new_vertex.set(v, static_cast<Index>(rows.size()));
