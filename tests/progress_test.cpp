@@ -3,6 +3,7 @@
 
 #include <thread>
 
+#include "batten/expand/mesh_series.h"
 #include "batten/interpolate/interpolator.h"
 #include "batten/limit/adaptive.h"
 #include "batten/limit/limit_matrix.h"
@@ -48,6 +49,18 @@ std::vector<Named> operations(const io_tests::TemporaryFolder& folder) {
          nearest.nearest(mesh.points, found, progress);
        }},
       {"interpolator", [](const Progress& progress) { Interpolator(topology, scheme, {}, progress); }},
+      {"mesh series",
+       [](const Progress& progress) {
+         SeriesOptions options;
+         options.shape = mesh.points;
+         for (const SeriesMatrix matrix : {SeriesMatrix::Limit, SeriesMatrix::Cotangent}) {
+           options.matrix = matrix;
+           const double first = matrix == SeriesMatrix::Limit ? 0.0 : 0.5;
+           const Progress half = progress_within(progress, first, first + 0.5);
+           const MeshSeries series(topology, scheme, options, progress_within(half, 0.0, 0.5));
+           series.smooth(mesh.points, 2, 20, progress_within(half, 0.5, 1.0));
+         }
+       }},
       {"adaptive",
        [](const Progress& progress) {
          AdaptiveOptions options;

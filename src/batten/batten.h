@@ -1,6 +1,7 @@
 /// \file Everything of the library but pictures (render/render.h).
 #pragma once
 #include "batten/error.h"
+#include "batten/expand/mesh_series.h"
 #include "batten/interpolate/interpolator.h"
 #include "batten/io/io.h"
 #include "batten/limit/adaptive.h"

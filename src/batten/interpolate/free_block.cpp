@@ -41,18 +41,6 @@ void FreeBlock::row(Index row, RowEntries& entries) const {
   matrix_.visit_row(row, [&](Index column, double weight) { entries.add(column, weight); });
 }
 
-double FreeBlock::entry_count() const {
-  const Topology& topology = matrix_.topology();
-  if (matrix_.scheme().kind == SchemeKind::Loop) return 2.0 * topology.edge_count();
-  if (const double size = topology.uniform_face_size(); size > 0.0) return topology.face_count() * size * (size - 2.0);
-  double count = 0.0;
-  for (Index f = 0; f < topology.face_count(); ++f) {
-    const double size = topology.face_size(f);
-    count += size * (size - 2.0);
-  }
-  return count;
-}
-
 Values FreeBlock::masked(ConstValuesRef values) const {
   Values result = values;
   parallel_for(result.rows(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {

@@ -19,8 +19,6 @@ class FreeBlock : public RowSource {
   Index free_count() const { return free_count_; }
   /// True when the free rows are symmetric after scaling: smooth rows only.
   bool is_symmetric() const { return symmetric_; }
-  /// Sum over the free rows of their number of entries.
-  double entry_count() const;
 
   /// Conjugate gradients where symmetric, else stabilised bi-conjugate gradients; falls back from the first to the
   /// second where the block turns out indefinite, and from that to the direct solver.

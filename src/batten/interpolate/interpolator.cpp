@@ -113,7 +113,7 @@ struct Interpolator::Parts {
     // Darts and semi-sharp surroundings make the rows unsymmetric, but their spectrum stays so near the real interval
     // that Chebyshev converges all the same; where it does not, BiCGSTAB goes on.
     return options.method == SolveMethod::Auto &&
-           block->entry_count() <= kMostEntriesPerVertex * topology.vertex_count();
+           matrix.entry_count() <= kMostEntriesPerVertex * topology.vertex_count();
   }
 
   SolveReport iterate(SolveMethod method, ConstValuesRef targets, Values& x, const StopRule& stop) const {

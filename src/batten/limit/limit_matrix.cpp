@@ -195,6 +195,18 @@ Values LimitMatrix::apply(ConstValuesRef values, const Progress& progress) const
   return out;
 }
 
+double LimitMatrix::entry_count() const {
+  if (scheme_.kind == SchemeKind::Loop) return 2.0 * topology_.edge_count();
+  if (const double size = topology_.uniform_face_size(); size > 0.0)
+    return topology_.face_count() * size * (size - 2.0);
+  double count = 0.0;
+  for (Index f = 0; f < topology_.face_count(); ++f) {
+    const double size = topology_.face_size(f);
+    count += size * (size - 2.0);
+  }
+  return count;
+}
+
 Eigen::SparseMatrix<double, Eigen::RowMajor> LimitMatrix::matrix() const {
   std::vector<Eigen::Triplet<double>> entries;
   for (Index v = 0; v < topology_.vertex_count(); ++v) {

@@ -63,6 +63,9 @@ class LimitMatrix {
 
   Index special_count() const { return static_cast<Index>(special_vertices_.size()); }
 
+  /// About how many entries visit_row meets in all rows: a face of d corners has d (d - 2) of them.
+  double entry_count() const;
+
   Eigen::SparseMatrix<double, Eigen::RowMajor> matrix() const;
 
  private:

@@ -259,6 +259,36 @@ void step_segment(const TileSegment& segment, Index count, const float* weights,
   }
 }
 
+template <int M>
+void remainder_segment(const TileSegment& segment, const RowPattern& pattern, const std::uint16_t* columns,
+                       const Double4* x, Double4* remainder) {
+  const auto count = static_cast<Index>(pattern.weights.size());
+  double local[std::max(M, 1)];
+  for (int k = 0; k < M; ++k) local[k] = pattern.weights[k];
+  const Index last = segment.first_row + segment.row_count;
+  for (Index i = segment.first_row; i < last; ++i) {
+    Double4 product = pattern.diagonal * x[i];
+    if constexpr (M > 0) {
+      for (int k = 0; k < M; ++k) product += local[k] * x[columns[k]];
+      columns += M;
+    } else {
+      for (Index k = 0; k < count; ++k) product += pattern.weights[k] * x[columns[k]];
+      columns += count;
+    }
+    remainder[i] = x[i] - product;
+  }
+}
+
+using RemainderSegment = void (*)(const TileSegment&, const RowPattern&, const std::uint16_t*, const Double4*,
+                                  Double4*);
+
+RemainderSegment remainder_for(std::size_t count) {
+  static constexpr RemainderSegment kTable[] = {remainder_segment<0>, remainder_segment<1>, remainder_segment<2>,
+                                                remainder_segment<3>, remainder_segment<4>, remainder_segment<5>,
+                                                remainder_segment<6>, remainder_segment<7>, remainder_segment<8>};
+  return count < std::size(kTable) ? kTable[count] : kTable[0];
+}
+
 using StepSegment = void (*)(const TileSegment&, Index, const float*, const std::uint16_t*, float, float, const Float4*,
                              const Float4*, Float4*);
 
@@ -328,6 +358,15 @@ void tile_product(const Tile& tile, const std::vector<RowPattern>& patterns, con
       for (Index k = 0; k < count; ++k) sum += pattern.weights[k] * x[columns[k]];
       product[i] = sum;
     }
+  }
+}
+
+void tile_remainder(const Tile& tile, const std::vector<RowPattern>& patterns, int last_ring, const Double4* x,
+                    Double4* remainder) {
+  for (Index s = 0; s < tile.segment_end[last_ring]; ++s) {
+    const TileSegment& segment = tile.segments[s];
+    const RowPattern& pattern = patterns[segment.pattern];
+    remainder_for(pattern.weights.size())(segment, pattern, tile.columns.data() + segment.first_column, x, remainder);
   }
 }
 

@@ -57,4 +57,9 @@ void tile_step(const Tile& tile, const std::vector<RowPattern>& patterns, int la
 /// product_i = sum of the row's weights times x, for the tile's own rows; x covers rings 0 and 1.
 void tile_product(const Tile& tile, const std::vector<RowPattern>& patterns, const Double4* x, Double4* product);
 
+/// remainder_i = x_i less the sum of the row's weights times x, on the rows of rings 0 .. last_ring; x covers one ring
+/// more.
+void tile_remainder(const Tile& tile, const std::vector<RowPattern>& patterns, int last_ring, const Double4* x,
+                    Double4* remainder);
+
 }  // namespace batten

@@ -1,0 +1,248 @@
+#include "batten/expand/cotangent_rows.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "batten/error.h"
+#include "batten/mesh/triangulate.h"
+#include "batten/parallel/parallel.h"
+
+namespace batten {
+
+namespace {
+
+constexpr double kLargestCotangent = 114.6;  // of half a degree
+constexpr double kShare = 8.0 / 9.0;         // 1 - 1/9, the lowest eigenvalue of regular quads
+
+using Triangle = std::array<Index, 3>;
+
+/// The triangles of all faces as positions in their face: those of face f start at face_begin(f) - 2 f.
+class FaceTriangles {
+ public:
+  FaceTriangles(const Topology& topology, ConstValuesRef points) : topology_(topology) {
+    if (topology.uniform_face_size() == 3) return;
+    Mesh mesh = mesh_from_topology(topology);
+    mesh.points = points;
+    triangles_.reserve(static_cast<std::size_t>(topology.half_edge_count() - 2 * topology.face_count()));
+    for (Index f = 0; f < topology.face_count(); ++f) triangulate_face(mesh, f, triangles_);
+  }
+
+  /// Calls visit(b, c) for the triangles (origin(h), b, c) at the corner h.
+  template <typename Visit>
+  void at_corner(Index h, const Visit& visit) const {
+    const Index f = topology_.face(h);
+    const Index begin = topology_.face_begin(f);
+    if (triangles_.empty()) return visit(topology_.destination(h), topology_.origin(topology_.previous(h)));
+    const Index size = topology_.face_size(f);
+    const Triangle* triangles = triangles_.data() + (begin - 2 * f);
+    for (Index k = 0; k + 2 < size; ++k) {
+      for (int i = 0; i < 3; ++i) {
+        if (triangles[k][i] != h - begin) continue;
+        visit(topology_.origin(begin + triangles[k][(i + 1) % 3]), topology_.origin(begin + triangles[k][(i + 2) % 3]));
+      }
+    }
+  }
+
+ private:
+  const Topology& topology_;
+  std::vector<Triangle> triangles_;
+};
+
+/// One row of C off the diagonal, and the area around its vertex over three.
+struct Row {
+  std::vector<std::pair<Index, double>> entries;
+  double area = 0.0;
+
+  void sort() {
+    std::stable_sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::size_t used = 0;
+    for (const auto& entry : entries) {
+      if (used > 0 && entries[used - 1].first == entry.first) {
+        entries[used - 1].second += entry.second;
+      } else {
+        entries[used++] = entry;
+      }
+    }
+    entries.resize(used);
+  }
+  double diagonal() const {
+    double sum = 0.0;
+    for (const auto& entry : entries) sum += entry.second;
+    return sum;
+  }
+  /// sum_j |C_ij|, the diagonal included.
+  double absolute_sum() const {
+    double sum = std::abs(diagonal());
+    for (const auto& entry : entries) sum += std::abs(entry.second);
+    return sum;
+  }
+};
+
+class CotangentBuilder {
+ public:
+  CotangentBuilder(const LimitMatrix& matrix, ConstValuesRef points, const Buffer<std::uint8_t>& kept)
+      : matrix_(matrix), topology_(matrix.topology()), points_(points), kept_(kept), triangles_(topology_, points) {}
+
+  bool is_smooth(Index v) const {
+    const LimitRow kind = matrix_.row_kind(v);
+    return !is_kept(v) && (kind == LimitRow::Smooth || kind == LimitRow::Special);
+  }
+
+  void row(Index v, Row& row) const {
+    row.entries.clear();
+    row.area = 0.0;
+    const Eigen::Vector3d here = at(v);
+    topology_.for_each_outgoing(v, [&](Index h) {
+      triangles_.at_corner(h, [&](Index b, Index c) {
+        const Eigen::Vector3d to_b = at(b) - here;
+        const Eigen::Vector3d to_c = at(c) - here;
+        const double twice_area = to_b.cross(to_c).norm();
+        if (!(twice_area > 0.0)) return;
+        const double cot_v = to_b.dot(to_c) / twice_area;
+        const double cot_b = to_b.dot(to_b - to_c) / twice_area;
+        const double cot_c = to_c.dot(to_c - to_b) / twice_area;
+        const double largest = std::max({std::abs(cot_v), std::abs(cot_b), std::abs(cot_c)});
+        if (!std::isfinite(largest)) return;
+        const double share = largest > kLargestCotangent ? kLargestCotangent / largest : 1.0;
+        row.entries.emplace_back(b, -0.5 * share * cot_c);
+        row.entries.emplace_back(c, -0.5 * share * cot_b);
+        row.area += twice_area / 6.0;
+      });
+    });
+    row.sort();
+  }
+
+  /// The median of (sum_j |C_ij|) / area.
+  double median_ratio(const Progress& progress) const {
+    Buffer<double> ratios(static_cast<std::size_t>(topology_.vertex_count()), -1.0);
+    parallel_for(
+        topology_.vertex_count(),
+        [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+          Row entries;
+          for (auto v = static_cast<Index>(begin); v < end; ++v) {
+            if (!is_smooth(v)) continue;
+            row(v, entries);
+            if (entries.area > 0.0) ratios[v] = entries.absolute_sum() / entries.area;
+          }
+        },
+        kDefaultBlock, progress);
+    ratios.erase(std::remove_if(ratios.begin(), ratios.end(), [](double ratio) { return !(ratio >= 0.0); }),
+                 ratios.end());
+    if (ratios.empty()) return 0.0;
+    const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+    std::nth_element(ratios.begin(), middle, ratios.end());
+    return *middle;
+  }
+
+  /// Appends row v of E - A; returns its scale.
+  double append(Index v, double ratio, Row& scratch, Buffer<Index>& columns, Buffer<double>& weights) const {
+    if (is_kept(v)) return 1.0;
+    if (!is_smooth(v)) {
+      double diagonal = 1.0;
+      matrix_.visit_row(v, [&](Index column, double weight) {
+        if (column == v) {
+          diagonal -= weight;
+        } else {
+          columns.push_back(column);
+          weights.push_back(-weight);
+        }
+      });
+      columns.push_back(v);
+      weights.push_back(diagonal);
+      return 1.0;
+    }
+    row(v, scratch);
+    const double scale = std::max(ratio * scratch.area, scratch.absolute_sum());
+    if (!(scale > 0.0)) return 1.0;
+    const double factor = kShare / scale;
+    for (const auto& entry : scratch.entries) {
+      columns.push_back(entry.first);
+      weights.push_back(factor * entry.second);
+    }
+    columns.push_back(v);
+    weights.push_back(-factor * scratch.diagonal());
+    return scale;
+  }
+
+ private:
+  Eigen::Vector3d at(Index v) const { return {points_(v, 0), points_(v, 1), points_(v, 2)}; }
+  bool is_kept(Index v) const { return !kept_.empty() && kept_[v] != 0; }
+
+  const LimitMatrix& matrix_;
+  const Topology& topology_;
+  ConstValuesRef points_;
+  const Buffer<std::uint8_t>& kept_;
+  FaceTriangles triangles_;
+};
+
+}  // namespace
+
+RemainderRows cotangent_rows(const LimitMatrix& matrix, ConstValuesRef points, const Buffer<std::uint8_t>& kept,
+                             const Progress& progress) {
+  require_vertex_rows(matrix.topology(), points);
+  if (points.cols() != 3) throw Error(ErrorCode::BadShape, "cotangents need points of three columns");
+  if (!points.allFinite()) throw Error(ErrorCode::NotFinite, "the points hold a number that is not finite");
+  const Index count = matrix.topology().vertex_count();
+  const CotangentBuilder builder(matrix, points, kept);
+  const double ratio = builder.median_ratio(progress_within(progress, 0.0, 0.5));
+  struct Block {
+    Buffer<Index> columns;
+    Buffer<double> weights;
+    std::size_t first = 0;
+  };
+  std::vector<Block> blocks(static_cast<std::size_t>(block_count(count)));
+  RemainderRows rows;
+  rows.offsets.resize(static_cast<std::size_t>(count) + 1);
+  rows.scales.resize(static_cast<std::size_t>(count));
+  parallel_for(
+      count,
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        Row scratch;
+        Block& block = blocks[begin / kDefaultBlock];
+        for (auto v = static_cast<Index>(begin); v < end; ++v) {
+          rows.offsets[v] = block.columns.size();
+          rows.scales[v] = builder.append(v, ratio, scratch, block.columns, block.weights);
+        }
+      },
+      kDefaultBlock, progress_within(progress, 0.5, 1.0));
+  std::size_t total = 0;
+  for (Block& block : blocks) {
+    block.first = total;
+    total += block.columns.size();
+  }
+  rows.columns.resize(total);
+  rows.weights.resize(total);
+  rows.offsets[count] = total;
+  parallel_for(count, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    Block& block = blocks[begin / kDefaultBlock];
+    for (std::ptrdiff_t v = begin; v < end; ++v) rows.offsets[v] += block.first;
+    std::copy(block.columns.begin(), block.columns.end(),
+              rows.columns.begin() + static_cast<std::ptrdiff_t>(block.first));
+    std::copy(block.weights.begin(), block.weights.end(),
+              rows.weights.begin() + static_cast<std::ptrdiff_t>(block.first));
+    block = {};
+  });
+  return rows;
+}
+
+void RemainderRows::apply(const Values& x, Values& out, const Progress& progress) const {
+  out.resize(x.rows(), x.cols());
+  const Eigen::Index columns_of_x = x.cols();
+  parallel_for(
+      x.rows(),
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        for (std::ptrdiff_t v = begin; v < end; ++v) {
+          double* target = out.data() + v * columns_of_x;
+          for (Eigen::Index c = 0; c < columns_of_x; ++c) target[c] = 0.0;
+          for (std::size_t k = offsets[v]; k < offsets[v + 1]; ++k) {
+            const double* from = x.data() + columns[k] * columns_of_x;
+            for (Eigen::Index c = 0; c < columns_of_x; ++c) target[c] += weights[k] * from[c];
+          }
+        }
+      },
+      kDefaultBlock, progress);
+}
+
+}  // namespace batten

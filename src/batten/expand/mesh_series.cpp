@@ -1,0 +1,201 @@
+#include "batten/expand/mesh_series.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "batten/error.h"
+#include "batten/expand/cotangent_rows.h"
+#include "batten/parallel/parallel.h"
+#include "batten/solve/tiled_polynomial.h"
+
+namespace batten {
+
+namespace {
+
+/// Where tiles cost more than they save: rows of huge faces, or surroundings that grow too fast.
+constexpr double kMostEntriesPerVertex = 40.0;
+constexpr double kMostOverlap = 6.0;
+constexpr double kValenceTwoAlpha = 1.0;
+
+/// Alpha = 1 at the components with a smooth vertex of valence 2, or nothing where there is none.
+std::vector<double> safe_alpha(const Topology& topology, const Scheme& scheme) {
+  if (scheme.kind == SchemeKind::Loop) return {};
+  Buffer<Index> found;
+  for (Index v = 0; v < topology.vertex_count(); ++v) {
+    if (topology.is_isolated(v) || topology.is_boundary_vertex(v)) continue;
+    const Index first = topology.vertex_half_edge(v);
+    const Index second = topology.twin(topology.previous(first));
+    if (second == first || topology.twin(topology.previous(second)) == first) found.push_back(v);
+  }
+  if (found.empty()) return {};
+  const Components components = connected_components(topology);
+  std::vector<std::uint8_t> marked(static_cast<std::size_t>(components.count), 0);
+  for (const Index v : found) marked[components.of_vertex[v]] = 1;
+  std::vector<double> alpha(static_cast<std::size_t>(topology.vertex_count()), scheme.alpha);
+  for (Index v = 0; v < topology.vertex_count(); ++v) {
+    if (marked[components.of_vertex[v]] != 0) alpha[v] = kValenceTwoAlpha;
+  }
+  return alpha;
+}
+
+/// The rows of A with those of the kept vertices replaced by the identity's.
+class KeptRows : public RowSource {
+ public:
+  KeptRows(const LimitMatrix& matrix, const Buffer<std::uint8_t>& kept) : matrix_(matrix), kept_(kept) {}
+  Index size() const override { return matrix_.topology().vertex_count(); }
+  bool is_free(Index /*row*/) const override { return true; }
+  void row(Index row, RowEntries& entries) const override {
+    if (!kept_.empty() && kept_[row] != 0) return entries.add(row, 1.0);
+    matrix_.visit_row(row, [&](Index column, double weight) { entries.add(column, weight); });
+  }
+
+ private:
+  const LimitMatrix& matrix_;
+  const Buffer<std::uint8_t>& kept_;
+};
+
+}  // namespace
+
+struct MeshSeries::Parts {
+  const Topology& topology;
+  Buffer<std::uint8_t> kept;
+  LimitMatrix matrix;
+  std::unique_ptr<TiledPolynomial> tiles;
+  std::unique_ptr<RemainderRows> cotangents;
+
+  Parts(const Topology& topology_in, const Scheme& scheme, const SeriesOptions& options, const Progress& progress)
+      : topology(topology_in),
+        kept(options.kept),
+        matrix(topology_in, scheme, {LimitMasks::Exact, safe_alpha(topology_in, scheme)},
+               progress_within(progress, 0.0, 0.2)) {
+    if (!kept.empty() && static_cast<Index>(kept.size()) != topology.vertex_count())
+      throw Error(ErrorCode::BadShape, "kept must be empty or have one entry a vertex");
+    const Progress rest = progress_within(progress, 0.2, 1.0);
+    if (options.matrix == SeriesMatrix::Cotangent) {
+      cotangents = std::make_unique<RemainderRows>(cotangent_rows(matrix, options.shape, kept, rest));
+    } else if (matrix.entry_count() <= kMostEntriesPerVertex * topology.vertex_count()) {
+      tiles = std::make_unique<TiledPolynomial>(KeptRows(matrix, kept), rest);
+      if (!tiles->fits() || tiles->overlap() > kMostOverlap) tiles.reset();
+    }
+  }
+
+  /// G y, one application over the whole mesh.
+  void remainder(const Values& y, Values& next) const {
+    if (cotangents) return cotangents->apply(y, next);
+    next = matrix.apply(y);
+    parallel_for(y.rows(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+      for (std::ptrdiff_t v = begin; v < end; ++v) {
+        if (!kept.empty() && kept[v] != 0) {
+          next.row(v).setZero();
+        } else {
+          next.row(v) = y.row(v) - next.row(v);
+        }
+      }
+    });
+  }
+
+  void sweep(const std::vector<double>& coefficients, int passes, Values& x, const Progress& progress) const {
+    Values y;
+    Values next;
+    const double steps = static_cast<double>(passes) * static_cast<double>(coefficients.size() - 1);
+    double done = 0.0;
+    for (int pass = 0; pass < passes; ++pass) {
+      y = x;
+      x *= coefficients[0];
+      for (std::size_t i = 1; i < coefficients.size(); ++i, done += 1.0) {
+        report_progress(progress, done / steps);
+        remainder(y, next);
+        std::swap(y, next);
+        if (coefficients[i] != 0.0) x += coefficients[i] * y;
+      }
+    }
+  }
+};
+
+MeshSeries::MeshSeries(const Topology& topology, const Scheme& scheme, const SeriesOptions& options,
+                       const Progress& progress)
+    : parts_(std::make_unique<Parts>(topology, scheme, options, progress)) {}
+
+MeshSeries::~MeshSeries() = default;
+MeshSeries::MeshSeries(MeshSeries&&) noexcept = default;
+
+const Topology& MeshSeries::topology() const { return parts_->topology; }
+const LimitMatrix& MeshSeries::limit_matrix() const { return parts_->matrix; }
+bool MeshSeries::is_kept(Index vertex) const { return !parts_->kept.empty() && parts_->kept[vertex] != 0; }
+
+Values MeshSeries::polynomial(ConstValuesRef values, const std::vector<double>& coefficients, int passes,
+                              const Progress& progress) const {
+  require_vertex_rows(parts_->topology, values);
+  if (coefficients.empty()) throw Error(ErrorCode::BadArgument, "a polynomial needs a coefficient");
+  if (passes < 0) throw Error(ErrorCode::BadArgument, "passes must not be negative");
+  if (!values.allFinite()) throw Error(ErrorCode::NotFinite, "the values hold a number that is not finite");
+  Values x = values;
+  if (x.size() == 0) return x;
+  if (parts_->tiles) {
+    parts_->tiles->apply(coefficients, passes, x, progress);
+  } else {
+    parts_->sweep(coefficients, passes, x, progress);
+  }
+  return x;
+}
+
+Values MeshSeries::apply(ConstValuesRef values, const Progress& progress) const {
+  return polynomial(values, {1.0, -1.0}, 1, progress);
+}
+
+Values MeshSeries::remainder(ConstValuesRef values, int power, const Progress& progress) const {
+  return polynomial(values, {0.0, 1.0}, power, progress);
+}
+
+Values MeshSeries::term(ConstValuesRef values, int index, const Progress& progress) const {
+  if (index < 0) throw Error(ErrorCode::BadArgument, "terms are counted from 0");
+  std::vector<double> coefficients(static_cast<std::size_t>(index) + 2, 0.0);
+  coefficients[coefficients.size() - 2] = 1.0;
+  coefficients.back() = -1.0;
+  return polynomial(values, coefficients, 1, progress);
+}
+
+Values MeshSeries::partial_sum(ConstValuesRef values, int last, const Progress& progress) const {
+  if (last < 0) throw Error(ErrorCode::BadArgument, "terms are counted from 0");
+  return smooth(values, last, 1, progress);
+}
+
+Values MeshSeries::smooth(ConstValuesRef values, int m, int passes, const Progress& progress) const {
+  if (m < 0) throw Error(ErrorCode::BadArgument, "m must not be negative");
+  std::vector<double> coefficients(static_cast<std::size_t>(m) + 2, 0.0);
+  coefficients.front() = 1.0;
+  coefficients.back() = -1.0;
+  return polynomial(values, coefficients, passes, progress);
+}
+
+std::vector<double> MeshSeries::energies(ConstValuesRef values, int count, const Progress& progress) const {
+  std::vector<double> energies;
+  Values left = values;
+  for (int i = 0; i < count; ++i) {
+    Values next = remainder(left, 1, progress_within(progress, static_cast<double>(i) / count, (i + 1.0) / count));
+    const auto squares = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+      return (left - next).middleRows(begin, end - begin).squaredNorm();
+    };
+    const double sum = parallel_reduce(left.rows(), 0.0, squares, [](double a, double b) { return a + b; });
+    energies.push_back(left.rows() > 0 ? sum / static_cast<double>(left.rows()) : 0.0);
+    left.swap(next);
+  }
+  return energies;
+}
+
+double MeshSeries::weight(Index vertex) const {
+  return parts_->cotangents ? parts_->cotangents->scales[vertex] : parts_->matrix.row_scale(vertex);
+}
+
+Eigen::RowVectorXd MeshSeries::weighted_centroid(ConstValuesRef values) const {
+  require_vertex_rows(parts_->topology, values);
+  Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(values.cols());
+  double weights = 0.0;
+  for (Index v = 0; v < parts_->topology.vertex_count(); ++v) {
+    sum += weight(v) * values.row(v);
+    weights += weight(v);
+  }
+  return weights > 0.0 ? Eigen::RowVectorXd(sum / weights) : sum;
+}
+
+}  // namespace batten

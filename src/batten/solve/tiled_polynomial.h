@@ -1,0 +1,39 @@
+/// \file Polynomials of E - A, applied again and again in tiles that stay in the cache.
+///
+/// A pass takes x to c_0 x + c_1 G x + .. + c_d G^d x, G = E - A: smoothing, sharpening and the split into bands are
+/// such passes (key LC06). As in TiledIteration a tile of a few thousand unknowns takes its surroundings along and runs
+/// several applications of A in the core's own cache; here all in double, since the values themselves are carried.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "batten/solve/tiled_iteration.h"
+
+namespace batten {
+
+/// Build: O(nonzeros), 45 to 70 bytes an unknown where rows share their weights, as those of limit matrices do. Safe to
+/// share between threads.
+class TiledPolynomial {
+ public:
+  /// All rows must be free. Throws Error(Cancelled).
+  explicit TiledPolynomial(const RowSource& rows, const Progress& progress = {});
+  ~TiledPolynomial();
+  TiledPolynomial(TiledPolynomial&&) noexcept;
+
+  /// False where rows are too wide for tiles; then apply throws.
+  bool fits() const;
+
+  /// Unknowns held by all tiles, the surroundings included, over unknowns: what the tiling costs.
+  double overlap() const;
+
+  /// x <- (sum_i coefficients_i G^i) x, `passes` times. x: n-by-k. The result does not depend on the number of threads.
+  /// Memory: 64 bytes an unknown, 128 for polynomials of a degree above 7; kept for the next call.
+  /// Throws Error: BadShape (rows of x), BadArgument (no coefficients), NotAvailable (fits() is false), Cancelled.
+  void apply(const std::vector<double>& coefficients, int passes, ValuesRef x, const Progress& progress = {}) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace batten
