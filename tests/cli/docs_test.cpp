@@ -9,23 +9,14 @@
 
 #include <algorithm>
 #include <cctype>
-#include <filesystem>
-#include <fstream>
 #include <regex>
-#include <sstream>
 
+#include "cli/text.h"
+
+namespace batten::cli_tests {
 namespace {
 
-namespace fs = std::filesystem;
-
 const fs::path kSource = BATTEN_SOURCE_DIR;
-
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 /// Every page, relative to the source: README.md, CONTRIBUTING.md and docs/**.md.
 std::vector<fs::path> pages() {
@@ -121,3 +112,4 @@ TEST(DocsCommands, AreFoundInBlocksAndContinued) {
 }
 
 }  // namespace
+}  // namespace batten::cli_tests

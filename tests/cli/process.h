@@ -6,24 +6,14 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <filesystem>
-#include <fstream>
 #include <functional>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "cli/text.h"
+
 namespace batten::cli_tests {
-
-namespace fs = std::filesystem;
-
-inline std::string text_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 /// A run of the tool in `folder`, started by the constructor; stderr goes to a file beside the folder.
 class Process {

@@ -1,0 +1,95 @@
+/// The tool on limit surfaces: adaptive tessellation, distances.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "batten/io/io.h"
+#include "cli/tool.h"
+
+namespace batten::cli_tests {
+namespace {
+
+TEST_F(Tool, TessellatesToAChordTolerance) {
+  const std::string command = "subdivide " + kModels + "creature.obj --chord 0.5% ";
+  const Outcome result = run(command + "-o quads.ply --report r.json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("all quads"), std::string::npos) << result.out;
+  const auto report = nlohmann::json::parse(text_of(path("r.json")));
+  const double asked = report["chord"]["asked"].get<double>();
+  EXPECT_NEAR(asked, 0.005 * bounding_diagonal(read_mesh(kModels + "creature.obj").points), 1e-12);
+  EXPECT_LE(report["chord"]["measured"].get<double>(), asked);
+  EXPECT_GT(report["chord"]["measured"].get<double>(), 0.1 * asked);
+  const Mesh quads = read_mesh(path("quads.ply"));
+  EXPECT_EQ(quads.face_vertices.size(), 4 * static_cast<std::size_t>(quads.face_count()));
+  EXPECT_EQ(run(command + "--faces triangles -o triangles.ply").status, 0);
+  EXPECT_TRUE(all_triangles(read_mesh(path("triangles.ply"))));
+  EXPECT_EQ(run(command + "--edge-length 0.2 --angle 15 -o both.ply").status, 0);
+  EXPECT_EQ(run(command + "--max-faces 100 -o few.ply").status, 1);
+  for (const char* wrong : {"--chord 0", "--chord -1", "--chord 3x", "--chord nan", "--angle 0", "--faces quads"}) {
+    EXPECT_EQ(run("subdivide " + kModels + "cube.obj -o x.ply " + wrong).status, 2) << wrong;
+  }
+}
+
+/// A cube of side 2 with sharp edges is its own surface.
+const std::string kSharpCube =
+    "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
+    "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"
+    "t crease 2/1/0 0 1 10\nt crease 2/1/0 1 2 10\nt crease 2/1/0 2 3 10\nt crease 2/1/0 3 0 10\n"
+    "t crease 2/1/0 4 5 10\nt crease 2/1/0 5 6 10\nt crease 2/1/0 6 7 10\nt crease 2/1/0 7 4 10\n"
+    "t crease 2/1/0 0 4 10\nt crease 2/1/0 1 5 10\nt crease 2/1/0 2 6 10\nt crease 2/1/0 3 7 10\n";
+
+TEST_F(Tool, MeasuresDistancesOutsideAndInside) {
+  write("cube.obj", kSharpCube);
+  write("scan.xyz", "1.5 0 0\n0 0 0.75\n4 5 0\n0 -1 0\n");
+  const Outcome result = run("distance scan.xyz cube.obj -o out.ply --report r.json --picture p.png --width 320");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("max         5 at point 2"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("inside      at most 0.25, 1 point"), std::string::npos) << result.out;
+  const auto report = nlohmann::json::parse(text_of(path("r.json")));
+  EXPECT_NEAR(report["rms"].get<double>(), std::sqrt((0.25 + 0.0625 + 25.0) / 4.0), 1e-9);
+  EXPECT_NEAR(report["mean"].get<double>(), (0.5 + 0.25 + 5.0) / 4.0, 1e-9);
+  EXPECT_NEAR(report["max_inside"].get<double>(), 0.25, 1e-9);
+  EXPECT_EQ(report["farthest"][0]["point"], 2);
+  int counted = 0;
+  for (const auto& count : report["histogram"]["counts"]) counted += count.get<int>();
+  EXPECT_EQ(counted, 4);
+  const Mesh scan = read_mesh(path("out.ply"));
+  ASSERT_EQ(scan.attributes.size(), 1U);
+  EXPECT_EQ(scan.attributes[0].name, "distance");
+  const Eigen::Vector4d expected(0.5, -0.25, 5.0, 0.0);
+  EXPECT_LE((scan.attributes[0].values.col(0) - expected).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST_F(Tool, InterpolatedPointsLieOnTheSurface) {
+  ASSERT_EQ(run("interpolate " + kModels + "pipe-joint.obj -o control.obj").status, 0);
+  ASSERT_EQ(run("distance " + kModels + "pipe-joint.obj control.obj --report r.json").status, 0);
+  const auto report = nlohmann::json::parse(text_of(path("r.json")));
+  EXPECT_LE(report["max"].get<double>(), 2e-10 * report["diagonal"].get<double>());
+  EXPECT_GT(report["points"].get<int>(), 100);
+}
+
+TEST_F(Tool, AnOpenSurfaceHasNoInside) {
+  write("quad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+  write("scan.xyz", "0.5 0.5 -1\n0.5 0.5 2\n");
+  const Outcome result = run("distance scan.xyz quad.obj --report r.json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.out.find("inside"), std::string::npos) << result.out;
+  const auto report = nlohmann::json::parse(text_of(path("r.json")));
+  EXPECT_FALSE(report["signed"].get<bool>());
+  EXPECT_NEAR(report["mean"].get<double>(), 1.5, 1e-9);
+}
+
+TEST_F(Tool, DistanceSaysWhichFileIsWrong) {
+  write("scan.xyz", "0 0 0\n");
+  const Outcome swapped = run("distance " + kModels + "cube.obj scan.xyz");
+  EXPECT_EQ(swapped.status, 1);
+  EXPECT_NE(swapped.err.find("scan.xyz: there are no faces"), std::string::npos) << swapped.err;
+  EXPECT_EQ(run("distance scan.xyz " + kModels + "cube.obj -o out.obj").status, 2);
+  EXPECT_EQ(run("distance missing.xyz " + kModels + "cube.obj").status, 1);
+  write("none.off", "OFF\n0 0 0\n");
+  const Outcome empty = run("distance none.off " + kModels + "cube.obj");
+  EXPECT_EQ(empty.status, 1);
+  EXPECT_NE(empty.err.find("none.off"), std::string::npos) << empty.err;
+}
+
+}  // namespace
+}  // namespace batten::cli_tests
