@@ -86,7 +86,7 @@ class AdaptiveBuilder {
   }
 
  private:
-  void add_vertices(std::span<const CellForest::Place> places, Index first);
+  void add_vertices(std::span<const SurfacePlace> places, Index first);
   const CellNets& nets() {
     if (nets_ == nullptr) nets_ = std::make_unique<CellNets>(topology_, scheme_, control_);
     return *nets_;
@@ -123,21 +123,15 @@ class AdaptiveBuilder {
 };
 
 /// Rows from `first` on.
-void AdaptiveBuilder::add_vertices(std::span<const CellForest::Place> places, Index first) {
+void AdaptiveBuilder::add_vertices(std::span<const SurfacePlace> places, Index first) {
   const auto count = static_cast<std::ptrdiff_t>(places.size());
   points_.conservativeResize(first + count, 3);
   vertex_normals_.conservativeResize(first + count, 3);
-  std::vector<SurfacePlace> chunk;
   std::vector<Jet> jets;
   for (std::ptrdiff_t begin = 0; begin < count; begin += kChunk) {
     const std::ptrdiff_t size = std::min(kChunk, count - begin);
-    chunk.resize(static_cast<std::size_t>(size));
-    jets.resize(chunk.size());
-    for (std::ptrdiff_t i = 0; i < size; ++i) {
-      const CellForest::Place& place = places[begin + i];
-      chunk[i] = {place.face, place.u, place.v};
-    }
-    surface_.jets(chunk, jets);
+    jets.resize(static_cast<std::size_t>(size));
+    surface_.jets(places.subspan(static_cast<std::size_t>(begin), jets.size()), jets);
     for (std::ptrdiff_t i = 0; i < size; ++i) {
       points_.row(first + begin + i) = jets[i].point.transpose();
       vertex_normals_.row(first + begin + i) = unit_normal(jets[i]).transpose();
@@ -161,7 +155,7 @@ void AdaptiveBuilder::cut_by_chord_tolerance(const Progress& progress) {
 
 void AdaptiveBuilder::close() {
   const Index vertices = forest_.vertex_count();
-  const std::span<const CellForest::Place> places = forest_.vertex_places();
+  const std::span<const SurfacePlace> places = forest_.vertex_places();
   add_vertices(places.subspan(static_cast<std::size_t>(evaluated_)), evaluated_);
   evaluated_ = vertices;
   faces_ = quartered_ ? quads_of(forest_) : quads_ ? leaves_of(forest_) : triangles_of(forest_, points_);
@@ -257,9 +251,8 @@ AdaptiveMesh AdaptiveBuilder::finish() {
   const auto size = static_cast<std::size_t>(faces_.size);
   mesh.face_offsets.resize(corners / size + 1);
   for (std::size_t f = 0; f <= corners / size; ++f) mesh.face_offsets[f] = static_cast<Index>(f * size);
-  for (const CellForest::Place& place : forest_.vertex_places())
-    result.places.push_back({place.face, place.u, place.v});
-  for (const CellForest::Place& place : faces_.added) result.places.push_back({place.face, place.u, place.v});
+  result.places.assign(forest_.vertex_places().begin(), forest_.vertex_places().end());
+  result.places.insert(result.places.end(), faces_.added.begin(), faces_.added.end());
   mesh.points = std::move(points_);
   mesh.face_vertices = std::move(faces_.vertices);
   mesh.attributes.push_back({"normal", Values(vertex_normals_), {}});

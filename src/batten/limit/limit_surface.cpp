@@ -138,7 +138,7 @@ struct LimitSurface::Parts {
 
   void lay_out_trees();
   void set_control(ConstValuesRef control);
-  void check(const SurfacePlace& place) const { require_place(base(), quads, place); }
+  void check(const SurfacePlace& place) const { require_place(base(), place); }
   const Piece& locate(const SurfacePlace& place, double& u, double& v) const;
   void set(const SurfacePlace& place, Workspace& work, Jet& jet) const;
   void patch_jet(double u, double v, const Double4* from, const Index* rows, PatchJet& jet) const {
@@ -352,7 +352,8 @@ void LimitSurface::Parts::set(const SurfacePlace& place, Workspace& work, Jet& j
   set_jet(sums, Double4{}, scale, jet);
 }
 
-void require_place(const Topology& base, bool quads, const SurfacePlace& place) {
+void require_place(const Topology& base, const SurfacePlace& place) {
+  const bool quads = base.uniform_face_size() != 3;
   const double most = quads ? 1.0 : 1.0 - place.v;
   const bool inside = place.u >= 0.0 && place.v >= 0.0 && place.u <= most && place.v <= 1.0;
   if (inside && place.face >= 0 && place.face < base.face_count()) return;

@@ -13,19 +13,13 @@
 #include <span>
 
 #include "batten/mesh/topology.h"
+#include "batten/refine/surface_place.h"
 #include "batten/scheme/scheme.h"
 
 namespace batten {
 
-/// A point of the surface: a face and the place within it.
-struct SurfacePlace {
-  Index face = 0;
-  double u = 0.0;
-  double v = 0.0;
-};
-
 /// Throws Error(IndexOutOfRange, BadArgument) for a face or parameters that do not exist. base: of quads or triangles.
-void require_place(const Topology& base, bool quads, const SurfacePlace& place);
+void require_place(const Topology& base, const SurfacePlace& place);
 
 /// Point and derivatives. At a vertex that is not regular, and on it only, du and dv span the tangent plane (du x dv
 /// points outward) but are no derivatives, and there are no second ones: then `regular` is false and they are zero.

@@ -274,7 +274,7 @@ const Topology& SurfaceWeights::base() const { return parts_->base(); }
 
 Eigen::SparseMatrix<double, Eigen::RowMajor> SurfaceWeights::rows(std::span<const SurfacePlace> places, JetPart part,
                                                                   const Progress& progress) const {
-  for (const SurfacePlace& place : places) require_place(base(), parts_->quads, place);
+  for (const SurfacePlace& place : places) require_place(base(), place);
   // Places of one face in a row: they share the first refinement around it.
   std::vector<std::size_t> order(places.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -58,7 +58,7 @@ class FaceWriter {
   FaceWriter(const CellForest& forest, Index cell, std::size_t first, CellFaces& faces)
       : forest_(forest), cell_(cell), next_(first * static_cast<std::size_t>(faces.size)), faces_(faces) {}
   void corner(Index vertex, const Spot& at) {
-    const CellForest::Place place = forest_.place(cell_, at[0], at[1]);
+    const SurfacePlace place = forest_.place(cell_, at[0], at[1]);
     faces_.vertices[next_] = vertex;
     faces_.places[next_] = {place.u, place.v};
     faces_.cells[next_ / static_cast<std::size_t>(faces_.size)] = cell_;

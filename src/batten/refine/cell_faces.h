@@ -13,7 +13,7 @@ struct CellFaces {
   Buffer<Index> vertices;                ///< `size` a face: the forest's, then those added
   Buffer<std::array<double, 2>> places;  ///< of each corner, in the base face
   Buffer<Index> cells;                   ///< one a face
-  Buffer<CellForest::Place> added;       ///< vertices that the forest does not have
+  Buffer<SurfacePlace> added;            ///< vertices that the forest does not have
   Index count() const { return static_cast<Index>(cells.size()); }
 };
 

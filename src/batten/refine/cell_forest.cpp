@@ -85,7 +85,7 @@ Index CellForest::hanging_vertex(Index cell, int side) const {
   return corner(child(across.cell, across.side), next(across.side));
 }
 
-CellForest::Place CellForest::place(Index cell, double u, double v) const {
+SurfacePlace CellForest::place(Index cell, double u, double v) const {
   const Cell& here = cells_[cell];
   const double size = std::ldexp(here.turned ? -1.0 : 1.0, -here.level);
   return {here.face, here.u + size * u, here.v + size * v};
@@ -132,7 +132,7 @@ void CellForest::add_children(Index cell, const std::array<Index, 4>& middles, I
   for (int k = 0; k < 4; ++k) {
     const bool middle = k == corners_;
     const std::array<double, 2> at = middle ? std::array<double, 2>{1.0, 1.0} : cell_corner(corners_, k);
-    const Place origin = place(cell, 0.5 * at[0], 0.5 * at[1]);
+    const SurfacePlace origin = place(cell, 0.5 * at[0], 0.5 * at[1]);
     Cell child{parent.face,
                cell,
                -1,

@@ -9,19 +9,13 @@
 #include <array>
 
 #include "batten/mesh/topology.h"
+#include "batten/refine/surface_place.h"
 
 namespace batten {
 
 /// Cells come to a forest by split() only and stay. Memory: 40 bytes a cell, 24 a vertex. The base must outlive it.
 class CellForest {
  public:
-  /// Where a vertex or a cell's corner lies: a base face and its (u, v), in quads from corner 0 to 1 and to 3, in
-  /// triangles to 1 and to 2. Numbers of the form k / 2^level, exact.
-  struct Place {
-    Index face;
-    double u;
-    double v;
-  };
   struct Side {
     Index cell;  ///< -1: none, a boundary
     int side;
@@ -57,11 +51,11 @@ class CellForest {
   /// The vertex in the middle of a leaf's side where the neighbour is finer, otherwise -1.
   Index hanging_vertex(Index cell, int side) const;
 
-  /// From a cell's own parameters to its base face's.
-  Place place(Index cell, double u, double v) const;
+  /// From a cell's own parameters to its base face's. Corners have (u, v) of the form k / 2^level, exact.
+  SurfacePlace place(Index cell, double u, double v) const;
   /// Vertices: the base's that a cell uses, in their order, then others as they came.
   Index vertex_count() const { return static_cast<Index>(vertices_.size()); }
-  const Buffer<Place>& vertex_places() const { return vertices_; }
+  const Buffer<SurfacePlace>& vertex_places() const { return vertices_; }
 
  private:
   struct Cell {
@@ -85,7 +79,7 @@ class CellForest {
   int corners_;
   Buffer<std::uint8_t> left_out_;
   Buffer<Cell> cells_;
-  Buffer<Place> vertices_;
+  Buffer<SurfacePlace> vertices_;
 };
 
 /// A cell's corners in its own parameters.
