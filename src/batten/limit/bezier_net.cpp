@@ -40,8 +40,8 @@ template <typename Net>
 std::array<double, Net::kPoints> net_weights(double u, double v) {
   std::array<double, Net::kPoints> weights;
   for (int k = 0; k < Net::kPoints; ++k) {
-    std::array<Vec4, Net::kPoints> unit{};
-    unit[k] = Vec4{1.0, 0.0, 0.0, 0.0};
+    std::array<Double4, Net::kPoints> unit{};
+    unit[k] = Double4{1.0, 0.0, 0.0, 0.0};
     weights[k] = Net::jet(unit.data(), u, v).point[0];
   }
   return weights;
@@ -112,15 +112,15 @@ const NetTables<TriangleNet>& triangle_tables() {
   return tables;
 }
 
-NetJet QuadNet::jet(const Vec4* net, double u, double v) {
+NetJet QuadNet::jet(const Double4* net, double u, double v) {
   const CubicJet along = cubic_jet(u);
   const CubicJet across = cubic_jet(v);
   NetJet jet{};
   for (int j = 0; j < 4; ++j) {
-    const Vec4* row = net + 4 * j;
+    const Double4* row = net + 4 * j;
     const auto sum = [row](const double* w) { return w[0] * row[0] + w[1] * row[1] + w[2] * row[2] + w[3] * row[3]; };
-    const Vec4 value = sum(along.value);
-    const Vec4 first = sum(along.first);
+    const Double4 value = sum(along.value);
+    const Double4 first = sum(along.first);
     jet.point += across.value[j] * value;
     jet.dv += across.first[j] * value;
     jet.dvv += across.second[j] * value;
@@ -132,10 +132,10 @@ NetJet QuadNet::jet(const Vec4* net, double u, double v) {
 }
 
 /// De Casteljau's scheme down to the quadratic net, whose points have all that is asked.
-NetJet TriangleNet::jet(const Vec4* net, double u, double v) {
+NetJet TriangleNet::jet(const Double4* net, double u, double v) {
   const double w = 1.0 - u - v;
-  std::array<Vec4, 10> cubic;
-  std::array<Vec4, 6> quadratic;
+  std::array<Double4, 10> cubic;
+  std::array<Double4, 6> quadratic;
   int to = 0;
   for (int j = 0; j < 4; ++j) {
     for (int i = 0; i + j < 4; ++i) {
@@ -151,33 +151,33 @@ NetJet TriangleNet::jet(const Vec4* net, double u, double v) {
     }
   }
   const auto& [ww, uw, uu, vw, uv, vv] = quadratic;
-  const Vec4 at_w = w * ww + u * uw + v * vw;
-  const Vec4 at_u = w * uw + u * uu + v * uv;
-  const Vec4 at_v = w * vw + u * uv + v * vv;
+  const Double4 at_w = w * ww + u * uw + v * vw;
+  const Double4 at_u = w * uw + u * uu + v * uv;
+  const Double4 at_v = w * vw + u * uv + v * vv;
   return {w * at_w + u * at_u + v * at_v, 4.0 * (at_u - at_w),        4.0 * (at_v - at_w),
           12.0 * (uu - 2.0 * uw + ww),    12.0 * (uv - uw - vw + ww), 12.0 * (vv - 2.0 * vw + ww)};
 }
 
 template <typename Net>
-NetFrame<Net>::NetFrame(const Vec4* net) {
+NetFrame<Net>::NetFrame(const Double4* net) {
   constexpr double kLeastAngle = 1e-6;  // below it the cell is as good as a line
-  const Vec4 du = Net::mean_du(net);
-  const Vec4 dv = Net::mean_dv(net);
+  const Double4 du = Net::mean_du(net);
+  const Double4 dv = Net::mean_dv(net);
   du_length = std::sqrt(dot(du, du));
-  const Vec4 e0 = du / (du_length > 0.0 ? du_length : 1.0);
+  const Double4 e0 = du / (du_length > 0.0 ? du_length : 1.0);
   dv_along = dot(e0, dv);
-  const Vec4 rest = dv - dv_along * e0;
+  const Double4 rest = dv - dv_along * e0;
   dv_across = std::sqrt(dot(rest, rest));
   flat_enough = dv_across > kLeastAngle * (std::abs(dv_along) + du_length) && du_length > kLeastAngle * dv_across;
-  Vec4 x{1.0, 0.0, 0.0, 0.0};
-  Vec4 y{0.0, 1.0, 0.0, 0.0};
-  Vec4 z{0.0, 0.0, 1.0, 0.0};
+  Double4 x{1.0, 0.0, 0.0, 0.0};
+  Double4 y{0.0, 1.0, 0.0, 0.0};
+  Double4 z{0.0, 0.0, 1.0, 0.0};
   if (flat_enough) {
-    const Vec4 e1 = rest / dv_across;
-    const Vec4 e2{e0[1] * e1[2] - e0[2] * e1[1], e0[2] * e1[0] - e0[0] * e1[2], e0[0] * e1[1] - e0[1] * e1[0], 0.0};
-    x = Vec4{e0[0], e1[0], e2[0], 0.0};
-    y = Vec4{e0[1], e1[1], e2[1], 0.0};
-    z = Vec4{e0[2], e1[2], e2[2], 0.0};
+    const Double4 e1 = rest / dv_across;
+    const Double4 e2{e0[1] * e1[2] - e0[2] * e1[1], e0[2] * e1[0] - e0[0] * e1[2], e0[0] * e1[1] - e0[1] * e1[0], 0.0};
+    x = Double4{e0[0], e1[0], e2[0], 0.0};
+    y = Double4{e0[1], e1[1], e2[1], 0.0};
+    z = Double4{e0[2], e1[2], e2[2], 0.0};
   }
   for (int i = 0; i < Net::kPoints; ++i) points[i] = net[i][0] * x + net[i][1] * y + net[i][2] * z;
   low = high = points[0];
@@ -201,7 +201,7 @@ template <typename Net>
 void NetFrame<Net>::guess(double& u, double& v) const {
   u = v = Net::kMiddle;
   if (!flat_enough) return;
-  Vec4 middle{};
+  Double4 middle{};
   for (int c = 0; c < Net::kCorners; ++c) middle += points[Net::kCorner[c]];
   middle /= static_cast<double>(Net::kCorners);
   const double across = -middle[1] / dv_across;
@@ -227,17 +227,17 @@ struct SecondBounds {
 template <typename Net>
 SecondBounds second_bounds(const NetFrame<Net>& frame) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
-  std::array<Vec4, 3> low;
-  std::array<Vec4, 3> high;
-  low.fill(Vec4{kFar, kFar, kFar, kFar});
+  std::array<Double4, 3> low;
+  std::array<Double4, 3> high;
+  low.fill(Double4{kFar, kFar, kFar, kFar});
   high.fill(-low[0]);
-  Net::second_derivatives(frame.points.data(), [&](const Vec4& d, int which) {
+  Net::second_derivatives(frame.points.data(), [&](const Double4& d, int which) {
     low[which] = lower(low[which], d);
     high[which] = higher(high[which], d);
   });
   std::array<double, 3> along;
   for (int k = 0; k < 3; ++k) {
-    const Vec4 most = higher(high[k], -low[k]);
+    const Double4 most = higher(high[k], -low[k]);
     along[k] = std::sqrt(most[0] * most[0] + most[1] * most[1]);
   }
   // (u, v) = (p - b q / c, q) / ... : with du = (a, 0) and dv = (b, c), d/dp = d/du / a and d/dq = (d/dv - b/a d/du)/c.
@@ -272,10 +272,10 @@ SecondBounds second_bounds(const NetFrame<Net>& frame) {
 /// How far the tangential derivatives by parameters of unit metric are from an isometry.
 template <typename Net>
 double first_bound(const NetFrame<Net>& frame) {
-  std::array<Vec4, 2> most{};
-  const Vec4 mean[2] = {{frame.du_length, 0.0, 0.0, 0.0}, {frame.dv_along, frame.dv_across, 0.0, 0.0}};
-  Net::first_derivatives(frame.points.data(), [&](const Vec4& d, int which) {
-    const Vec4 off = d - mean[which];
+  std::array<Double4, 2> most{};
+  const Double4 mean[2] = {{frame.du_length, 0.0, 0.0, 0.0}, {frame.dv_along, frame.dv_across, 0.0, 0.0}};
+  Net::first_derivatives(frame.points.data(), [&](const Double4& d, int which) {
+    const Double4 off = d - mean[which];
     most[which] = higher(most[which], off * off);
   });
   const double in_u = std::sqrt(most[0][0] + most[0][1]) / frame.du_length;

@@ -7,20 +7,21 @@
 #include <array>
 #include <cmath>
 
+#include "batten/double4.h"
+
 namespace batten {
 
-using Vec4 = double __attribute__((vector_size(32)));  ///< x, y, z and a lane that nobody reads
-
-inline double dot(const Vec4& a, const Vec4& b) {
-  const Vec4 products = a * b;
+/// Of x, y and z; the fourth lane is nobody's.
+inline double dot(const Double4& a, const Double4& b) {
+  const Double4 products = a * b;
   return products[0] + products[1] + products[2];
 }
 /// Lane by lane.
-inline Vec4 lower(const Vec4& a, const Vec4& b) { return a < b ? a : b; }
-inline Vec4 higher(const Vec4& a, const Vec4& b) { return a > b ? a : b; }
+inline Double4 lower(const Double4& a, const Double4& b) { return a < b ? a : b; }
+inline Double4 higher(const Double4& a, const Double4& b) { return a > b ? a : b; }
 
 struct NetJet {
-  Vec4 point, du, dv, duu, duv, dvv;
+  Double4 point, du, dv, duu, duv, dvv;
 };
 
 /// Bicubic: point 4 j + i belongs to the Bernstein polynomials i in u and j in v.
@@ -33,19 +34,19 @@ struct QuadNet {
   static constexpr double kCornerV[4] = {0.0, 0.0, 1.0, 1.0};
   static constexpr double kMiddle = 0.5;
 
-  static NetJet jet(const Vec4* net, double u, double v);
+  static NetJet jet(const Double4* net, double u, double v);
   /// Of the net of a derivative in u, in v; the same twice, and once in each.
   template <typename Visit>
-  static void first_derivatives(const Vec4* net, const Visit& visit);
+  static void first_derivatives(const Double4* net, const Visit& visit);
   template <typename Visit>
-  static void second_derivatives(const Vec4* net, const Visit& visit);
+  static void second_derivatives(const Double4* net, const Visit& visit);
   /// The net of the curve from corner `number` to the next.
-  static void side(const Vec4* net, int number, Vec4* curve) {
+  static void side(const Double4* net, int number, Double4* curve) {
     constexpr int kStep[4] = {1, 4, -1, -4};
     for (int i = 0; i < 4; ++i) curve[i] = net[kCorner[number] + i * kStep[number]];
   }
-  static Vec4 mean_du(const Vec4* net) { return 0.5 * (net[3] + net[15] - net[0] - net[12]); }
-  static Vec4 mean_dv(const Vec4* net) { return 0.5 * (net[12] + net[15] - net[0] - net[3]); }
+  static Double4 mean_du(const Double4* net) { return 0.5 * (net[3] + net[15] - net[0] - net[12]); }
+  static Double4 mean_dv(const Double4* net) { return 0.5 * (net[12] + net[15] - net[0] - net[3]); }
 };
 
 /// Quartic: point index(i, j) belongs to u^i v^j (1 - u - v)^(4 - i - j).
@@ -59,16 +60,16 @@ struct TriangleNet {
   static constexpr double kMiddle = 1.0 / 3.0;
 
   static constexpr int index(int i, int j) { return 5 * j - j * (j - 1) / 2 + i; }
-  static NetJet jet(const Vec4* net, double u, double v);
+  static NetJet jet(const Double4* net, double u, double v);
   template <typename Visit>
-  static void first_derivatives(const Vec4* net, const Visit& visit);
+  static void first_derivatives(const Double4* net, const Visit& visit);
   template <typename Visit>
-  static void second_derivatives(const Vec4* net, const Visit& visit);
-  static void side(const Vec4* net, int number, Vec4* curve) {
+  static void second_derivatives(const Double4* net, const Visit& visit);
+  static void side(const Double4* net, int number, Double4* curve) {
     for (int i = 0; i < 5; ++i) curve[i] = net[number == 0 ? i : number == 1 ? index(4 - i, i) : index(0, 4 - i)];
   }
-  static Vec4 mean_du(const Vec4* net) { return net[4] - net[0]; }
-  static Vec4 mean_dv(const Vec4* net) { return net[14] - net[0]; }
+  static Double4 mean_du(const Double4* net) { return net[4] - net[0]; }
+  static Double4 mean_dv(const Double4* net) { return net[14] - net[0]; }
 };
 
 /// Matrices between nets; row i has the weights of its point i.
@@ -113,7 +114,7 @@ Placement half(int child) {
 /// A box around a net in the frame of its mean tangent plane, and how its parameters lie in it.
 template <typename Net>
 struct NetFrame {
-  explicit NetFrame(const Vec4* net);
+  explicit NetFrame(const Double4* net);
 
   /// No point of the cell is nearer to the origin, squared.
   double least_squared() const;
@@ -125,9 +126,9 @@ struct NetFrame {
   /// How far the cell is from a parallelogram: the turn of its derivatives against the mean ones.
   double bend() const;
 
-  std::array<Vec4, Net::kPoints> points;  ///< in the frame: along the mean du, across it, along the normal
-  Vec4 low;
-  Vec4 high;
+  std::array<Double4, Net::kPoints> points;  ///< in the frame: along the mean du, across it, along the normal
+  Double4 low;
+  Double4 high;
   bool flat_enough = true;  ///< the mean derivatives span a plane
   double du_length = 0.0;   ///< of the mean du
   double dv_along = 0.0;    ///< of the mean dv, along du
@@ -138,7 +139,7 @@ extern template struct NetFrame<QuadNet>;
 extern template struct NetFrame<TriangleNet>;
 
 template <typename Visit>
-void QuadNet::first_derivatives(const Vec4* net, const Visit& visit) {
+void QuadNet::first_derivatives(const Double4* net, const Visit& visit) {
   for (int j = 0; j < 4; ++j) {
     for (int i = 0; i < 3; ++i) {
       visit(3.0 * (net[4 * j + i + 1] - net[4 * j + i]), 0);
@@ -148,7 +149,7 @@ void QuadNet::first_derivatives(const Vec4* net, const Visit& visit) {
 }
 
 template <typename Visit>
-void QuadNet::second_derivatives(const Vec4* net, const Visit& visit) {
+void QuadNet::second_derivatives(const Double4* net, const Visit& visit) {
   for (int j = 0; j < 4; ++j) {
     for (int i = 0; i < 2; ++i) {
       visit(6.0 * (net[4 * j + i + 2] - 2.0 * net[4 * j + i + 1] + net[4 * j + i]), 0);
@@ -157,17 +158,17 @@ void QuadNet::second_derivatives(const Vec4* net, const Visit& visit) {
   }
   for (int j = 0; j < 3; ++j) {
     for (int i = 0; i < 3; ++i) {
-      const Vec4* at = net + 4 * j + i;
+      const Double4* at = net + 4 * j + i;
       visit(9.0 * (at[5] - at[4] - at[1] + at[0]), 1);
     }
   }
 }
 
 template <typename Visit>
-void TriangleNet::first_derivatives(const Vec4* net, const Visit& visit) {
+void TriangleNet::first_derivatives(const Double4* net, const Visit& visit) {
   for (int j = 0; j < 4; ++j) {
     for (int i = 0; i + j < 4; ++i) {
-      const Vec4& at = net[index(i, j)];
+      const Double4& at = net[index(i, j)];
       visit(4.0 * (net[index(i + 1, j)] - at), 0);
       visit(4.0 * (net[index(i, j + 1)] - at), 1);
     }
@@ -175,12 +176,12 @@ void TriangleNet::first_derivatives(const Vec4* net, const Visit& visit) {
 }
 
 template <typename Visit>
-void TriangleNet::second_derivatives(const Vec4* net, const Visit& visit) {
+void TriangleNet::second_derivatives(const Double4* net, const Visit& visit) {
   for (int j = 0; j < 3; ++j) {
     for (int i = 0; i + j < 3; ++i) {
-      const Vec4& at = net[index(i, j)];
-      const Vec4& along = net[index(i + 1, j)];
-      const Vec4& across = net[index(i, j + 1)];
+      const Double4& at = net[index(i, j)];
+      const Double4& along = net[index(i + 1, j)];
+      const Double4& across = net[index(i, j + 1)];
       visit(12.0 * (net[index(i + 2, j)] - 2.0 * along + at), 0);
       visit(12.0 * (net[index(i + 1, j + 1)] - along - across + at), 1);
       visit(12.0 * (net[index(i, j + 2)] - 2.0 * across + at), 2);

@@ -47,7 +47,7 @@ Buffer<std::uint64_t> rows_along_curve(ConstValuesRef queries, const Eigen::Vect
   return rows;
 }
 
-Vec4 vector_of(const Eigen::Vector3d& point) { return Vec4{point[0], point[1], point[2], 0.0}; }
+Double4 vector_of(const Eigen::Vector3d& point) { return Double4{point[0], point[1], point[2], 0.0}; }
 
 }  // namespace
 
@@ -97,7 +97,7 @@ NearestPoints::NearestPoints(const Topology& topology, const Scheme& scheme, Con
     const FloatBox& box = cells.tree().bounds();
     if (cells.cell_count() == 0)
       throw Error(ErrorCode::BadArgument, "all faces are holes, so there is no surface to be near to");
-    const Vec4& centre = cells.centre();
+    const Double4& centre = cells.centre();
     parts_->centre = {centre[0], centre[1], centre[2]};
     const Eigen::Vector3d extent(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
     parts_->diagonal = extent.norm() / cells.scale();

@@ -23,13 +23,13 @@ NearestSearch<Net>::NearestSearch(const SurfaceCells<Net>& cells)
     : cells_(cells), scratch_(std::max<std::size_t>(cells.most_points(), 16)) {}
 
 template <typename Net>
-NearestFound NearestSearch<Net>::find(const Vec4& query, double tolerance) {
+NearestFound NearestSearch<Net>::find(const Double4& query, double tolerance) {
   query_ = query;
   tolerance_ = tolerance;
   best_ = {};
   best_.squared = best_.least = cut_ = std::numeric_limits<double>::infinity();
   visits_ = 0;
-  const Vec4 from_centre = (query - cells_.centre()) * cells_.scale();
+  const Double4 from_centre = (query - cells_.centre()) * cells_.scale();
   const std::array<float, 3> point{static_cast<float>(from_centre[0]), static_cast<float>(from_centre[1]),
                                    static_cast<float>(from_centre[2])};
   constexpr float kMore = 1.0F + 4.0F * std::numeric_limits<float>::epsilon();
@@ -53,9 +53,9 @@ bool NearestSearch<Net>::leave(double squared) {
 }
 
 template <typename Net>
-bool NearestSearch<Net>::leave_box(const Vec4* points, std::size_t count) {
-  Vec4 low = points[0];
-  Vec4 high = points[0];
+bool NearestSearch<Net>::leave_box(const Double4* points, std::size_t count) {
+  Double4 low = points[0];
+  Double4 high = points[0];
   for (std::size_t i = 1; i < count; ++i) {
     low = lower(low, points[i]);
     high = higher(high, points[i]);
@@ -69,7 +69,7 @@ bool NearestSearch<Net>::leave_box(const Vec4* points, std::size_t count) {
 }
 
 template <typename Net>
-bool NearestSearch<Net>::offer(const Vec4& point, double u, double v) {
+bool NearestSearch<Net>::offer(const Double4& point, double u, double v) {
   const double squared = dot(point, point);
   if (!(squared < best_.squared)) return false;
   best_.squared = squared;
@@ -101,7 +101,7 @@ void NearestSearch<Net>::visit(Index place) {
 
 /// What is not proved at once waits until all other cells had their say.
 template <typename Net>
-void NearestSearch<Net>::search_net(const Vec4* net, const Placement& placement) {
+void NearestSearch<Net>::search_net(const Double4* net, const Placement& placement) {
   ++visits_;
   const NetFrame<Net> frame(net);
   double least = frame.least_squared();
@@ -125,9 +125,9 @@ void NearestSearch<Net>::search_pending() {
     face_ = part.face;
     for (int child = 0; child < 4; ++child) {
       const auto& weights = net_tables<Net>().halves[child];
-      std::array<Vec4, Net::kPoints> half_net;
+      std::array<Double4, Net::kPoints> half_net;
       for (int r = 0; r < Net::kPoints; ++r) {
-        Vec4 sum{};
+        Double4 sum{};
         for (int k = 0; k < Net::kPoints; ++k) sum += weights[r][k] * part.net[k];
         half_net[r] = sum;
       }
@@ -139,7 +139,7 @@ void NearestSearch<Net>::search_pending() {
 /// True where the squared distance falls all over the cell towards one of its sides, and along that side has one least
 /// place, which is offered: beyond creases and boundaries.
 template <typename Net>
-bool NearestSearch<Net>::search_border(const Vec4* net, const Placement& placement) {
+bool NearestSearch<Net>::search_border(const Double4* net, const Placement& placement) {
   const std::array<bool, Net::kCorners> falls_to = falling_sides<Net>(net);
   for (int side = 0; side < Net::kCorners; ++side) {
     if (!falls_to[side]) continue;
@@ -148,7 +148,7 @@ bool NearestSearch<Net>::search_border(const Vec4* net, const Placement& placeme
     const int next = (side + 1) % Net::kCorners;
     const double u = (1.0 - t) * Net::kCornerU[side] + t * Net::kCornerU[next];
     const double v = (1.0 - t) * Net::kCornerV[side] + t * Net::kCornerV[next];
-    const Vec4 point = Net::jet(net, u, v).point;
+    const Double4 point = Net::jet(net, u, v).point;
     offer(point, placement.u(u), placement.v(v));
     return true;
   }
@@ -157,7 +157,7 @@ bool NearestSearch<Net>::search_border(const Vec4* net, const Placement& placeme
 
 /// Newton's method in the cell. True where it proves that the cell has nothing of interest but what it offered.
 template <typename Net>
-bool NearestSearch<Net>::descend(const Vec4* net, const NetFrame<Net>& frame, double modulus,
+bool NearestSearch<Net>::descend(const Double4* net, const NetFrame<Net>& frame, double modulus,
                                  const Placement& placement, double& least) {
   constexpr double kSmallStep = 1e-7;  // the next one is its square
   const bool provable = modulus > kLeastModulus;
@@ -208,9 +208,9 @@ void NearestSearch<Net>::search_ring(Index kind, std::size_t first, const Placem
   ++visits_;
   if (leave_box(&rings_[first], rings_.size() - first)) return;
   std::array<std::pair<double, int>, 4> order;
-  Vec4 middle{};
+  Double4 middle{};
   for (int c = 0; c < Net::kCorners; ++c) {
-    const Vec4& corner = rings_[first + static_cast<std::size_t>(c)];
+    const Double4& corner = rings_[first + static_cast<std::size_t>(c)];
     order[c] = {dot(corner, corner), c};
     middle += corner / static_cast<double>(Net::kCorners);
   }
@@ -228,7 +228,7 @@ void NearestSearch<Net>::search_ring_child(const RingSteps::Child& child, std::s
   rings_.resize(own + static_cast<std::size_t>(child.rows.count()));
   ring_child_points<Net>(child, &rings_[first], &rings_[own]);
   if (child.kind == RingSteps::kPatch) {
-    std::array<Vec4, Net::kPoints> net;
+    std::array<Double4, Net::kPoints> net;
     net_of_spline<Net>(&rings_[own], net.data());
     search_net(net.data(), placement);
   } else {

@@ -11,7 +11,7 @@ struct NearestFound {
   Index face = 0;
   double u = 0.0;
   double v = 0.0;
-  Vec4 offset{};         ///< from the query to the point
+  Double4 offset{};      ///< from the query to the point
   double squared = 0.0;  ///< distance
   double least = 0.0;    ///< no point is nearer than this, squared
 };
@@ -24,36 +24,37 @@ class NearestSearch {
   explicit NearestSearch(const SurfaceCells<Net>& cells);
 
   /// Cells that can win less than the tolerance are left out.
-  NearestFound find(const Vec4& query, double tolerance);
+  NearestFound find(const Double4& query, double tolerance);
 
  private:
   struct Part {
     Index face;
     Placement placement;
-    std::array<Vec4, Net::kPoints> net;
+    std::array<Double4, Net::kPoints> net;
   };
   void visit(Index place);
-  void search_net(const Vec4* net, const Placement& placement);
+  void search_net(const Double4* net, const Placement& placement);
   void search_pending();
-  bool search_border(const Vec4* net, const Placement& placement);
+  bool search_border(const Double4* net, const Placement& placement);
   void search_ring(Index kind, std::size_t first, const Placement& placement);
   void search_ring_child(const RingSteps::Child& child, std::size_t first, const Placement& placement);
-  bool descend(const Vec4* net, const NetFrame<Net>& frame, double modulus, const Placement& placement, double& least);
+  bool descend(const Double4* net, const NetFrame<Net>& frame, double modulus, const Placement& placement,
+               double& least);
   void offer_corners(const Placement& placement);
-  bool offer(const Vec4& point, double u, double v);
+  bool offer(const Double4& point, double u, double v);
   bool leave(double squared);
-  bool leave_box(const Vec4* points, std::size_t count);
+  bool leave_box(const Double4* points, std::size_t count);
 
   const SurfaceCells<Net>& cells_;
-  Vec4 query_{};
+  Double4 query_{};
   double tolerance_ = 0.0;
   double cut_ = 0.0;  ///< squared distances from here on are of no interest
   NearestFound best_;
   Index face_ = 0;  ///< of the cell at hand
   int visits_ = 0;
   ///< of cells and parts of cells
-  std::vector<Vec4> scratch_;
-  std::vector<Vec4> rings_;  ///< a stack
+  std::vector<Double4> scratch_;
+  std::vector<Double4> rings_;  ///< a stack
   std::vector<Part> pending_;
   std::vector<std::pair<double, std::size_t>> queue_;  ///< a heap of pending parts by their least squared distance
 };

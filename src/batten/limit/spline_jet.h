@@ -2,12 +2,10 @@
 #pragma once
 #include <array>
 
+#include "batten/double4.h"
 #include "batten/refine/regular_patch.h"
 
 namespace batten {
-
-/// A point, and a number to spare that keeps it in one register.
-using Double4 = double __attribute__((vector_size(32)));
 
 /// Weights of a patch's control points for the value and the derivatives up to the second, in the patch's own (u, v).
 struct JetWeights {

@@ -17,11 +17,11 @@ bool inside(double u, double v) {
 
 /// Intervals of x, y and z.
 struct Box {
-  Vec4 low;
-  Vec4 high;
+  Double4 low;
+  Double4 high;
   bool empty = true;
 
-  void add(const Vec4& point) {
+  void add(const Double4& point) {
     low = empty ? point : lower(low, point);
     high = empty ? point : higher(high, point);
     empty = false;
@@ -100,12 +100,12 @@ double most_decrease(const DistanceModel& model, const NetFrame<Net>& frame, dou
 }
 
 template <typename Net>
-std::array<bool, Net::kCorners> falling_sides(const Vec4* net) {
+std::array<bool, Net::kCorners> falling_sides(const Double4* net) {
   std::array<bool, Net::kCorners> falls_to;
   Box points;
   std::array<Box, 2> slopes;
   for (int i = 0; i < Net::kPoints; ++i) points.add(net[i]);
-  Net::first_derivatives(net, [&](const Vec4& slope, int which) { slopes[which].add(slope); });
+  Net::first_derivatives(net, [&](const Double4& slope, int which) { slopes[which].add(slope); });
   const bool rises_in_u = least_dot(points, slopes[0]) >= 0.0;
   const bool rises_in_v = least_dot(points, slopes[1]) >= 0.0;
   const bool falls_in_u = least_dot(points, negative(slopes[0])) >= 0.0;
@@ -122,9 +122,9 @@ std::array<bool, Net::kCorners> falling_sides(const Vec4* net) {
 }
 
 template <typename Net>
-bool find_least_on_side(const Vec4* net, int side, double& t) {
+bool find_least_on_side(const Double4* net, int side, double& t) {
   constexpr int kDegree = Net::kCorners == 4 ? 3 : 4;
-  std::array<Vec4, kDegree + 1> curve;
+  std::array<Double4, kDegree + 1> curve;
   Net::side(net, side, curve.data());
   Box points;
   Box slopes;
@@ -160,9 +160,9 @@ template void move_to_least<QuadNet>(const DistanceModel&, double&, double&);
 template void move_to_least<TriangleNet>(const DistanceModel&, double&, double&);
 template double most_decrease(const DistanceModel&, const NetFrame<QuadNet>&, double, double, double);
 template double most_decrease(const DistanceModel&, const NetFrame<TriangleNet>&, double, double, double);
-template std::array<bool, 4> falling_sides<QuadNet>(const Vec4*);
-template std::array<bool, 3> falling_sides<TriangleNet>(const Vec4*);
-template bool find_least_on_side<QuadNet>(const Vec4*, int, double&);
-template bool find_least_on_side<TriangleNet>(const Vec4*, int, double&);
+template std::array<bool, 4> falling_sides<QuadNet>(const Double4*);
+template std::array<bool, 3> falling_sides<TriangleNet>(const Double4*);
+template bool find_least_on_side<QuadNet>(const Double4*, int, double&);
+template bool find_least_on_side<TriangleNet>(const Double4*, int, double&);
 
 }  // namespace batten

@@ -41,10 +41,10 @@ double most_decrease(const DistanceModel& model, const NetFrame<Net>& frame, dou
 
 /// Towards which sides |S|^2 falls from everywhere in the cell: side c runs from corner c to the next.
 template <typename Net>
-std::array<bool, Net::kCorners> falling_sides(const Vec4* net);
+std::array<bool, Net::kCorners> falling_sides(const Double4* net);
 
 /// Where on a side |S|^2 is least, as a fraction of it; false where that is not known.
 template <typename Net>
-bool find_least_on_side(const Vec4* net, int side, double& t);
+bool find_least_on_side(const Double4* net, int side, double& t);
 
 }  // namespace batten

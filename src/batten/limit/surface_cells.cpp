@@ -28,19 +28,19 @@ void complete_patch<TriangleNet>(const Index* rows, double* points, int columns)
   complete_triangle_patch(rows, points, columns);
 }
 
-Buffer<Vec4> vectors_of(ConstValuesRef values) {
-  Buffer<Vec4> vectors(static_cast<std::size_t>(values.rows()));
+Buffer<Double4> vectors_of(ConstValuesRef values) {
+  Buffer<Double4> vectors(static_cast<std::size_t>(values.rows()));
   parallel_for(values.rows(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    for (std::ptrdiff_t i = begin; i < end; ++i) vectors[i] = Vec4{values(i, 0), values(i, 1), values(i, 2), 0.0};
+    for (std::ptrdiff_t i = begin; i < end; ++i) vectors[i] = Double4{values(i, 0), values(i, 1), values(i, 2), 0.0};
   });
   return vectors;
 }
 
 /// Rounded to the nearest float: BoxTree allows for that.
-FloatBox box_of(const std::vector<Vec4>& points) {
-  Vec4 low = points[0];
-  Vec4 high = points[0];
-  for (const Vec4& point : points) {
+FloatBox box_of(const std::vector<Double4>& points) {
+  Double4 low = points[0];
+  Double4 high = points[0];
+  for (const Double4& point : points) {
     low = lower(low, point);
     high = higher(high, point);
   }
@@ -141,20 +141,20 @@ void CellShapes<Net>::add_ring(const RingSteps& steps, Index kind, const Matrix&
 }
 
 template <typename Net>
-void net_of_spline(const Vec4* spline, Vec4* net) {
+void net_of_spline(const Double4* spline, Double4* net) {
   const NetTables<Net>& tables = net_tables<Net>();
   for (int r = 0; r < Net::kPoints; ++r) {
-    Vec4 sum{};
+    Double4 sum{};
     for (int k = 0; k < Net::kSplinePoints; ++k) sum += tables.from_spline[r][k] * spline[k];
     net[r] = sum;
   }
 }
 
 template <typename Net>
-void ring_child_points(const RingSteps::Child& child, const Vec4* ring, Vec4* points) {
+void ring_child_points(const RingSteps::Child& child, const Double4* ring, Double4* points) {
   const SparseRows& rows = child.rows;
   for (Index r = 0; r < rows.count(); ++r) {
-    Vec4 sum{};
+    Double4 sum{};
     for (Index e = rows.starts[r]; e < rows.starts[r + 1]; ++e) sum += rows.weights[e] * ring[rows.columns[e]];
     points[r] = sum;
   }
@@ -197,19 +197,19 @@ void SurfaceCells<Net>::find_values(ConstValuesRef base_values) {
   for (int level = 0; level <= pieces_->region_count(); ++level) values_.push_back(vectors_of(levels.at(level)));
   limits_ = vectors_of(LimitMatrix(base(), pieces_->scheme()).apply(base_values));
   const Eigen::RowVector3d middle = 0.5 * (base_values.colwise().minCoeff() + base_values.colwise().maxCoeff());
-  centre_ = Vec4{middle[0], middle[1], middle[2], 0.0};
+  centre_ = Double4{middle[0], middle[1], middle[2], 0.0};
   const double size = (base_values.rowwise() - middle).cwiseAbs().maxCoeff();
   if (size > 0.0) scale_ = 1.0 / size;
   most_points_ = static_cast<std::size_t>(shapes_->most_points());
 }
 
 template <typename Net>
-void SurfaceCells<Net>::gather(const Piece& piece, const Vec4& origin, Vec4* points) const {
+void SurfaceCells<Net>::gather(const Piece& piece, const Double4& origin, Double4* points) const {
   const bool patch = piece.kind == Piece::Kind::Patch;
   const Index count =
       patch ? Net::kSplinePoints : pieces_->configurations()[piece.configuration].topology.vertex_count();
   const Index* rows = pieces_->rows(piece);
-  const Vec4* values = values_[piece.level].data();
+  const Double4* values = values_[piece.level].data();
   bool complete = true;
   for (Index i = 0; i < count; ++i) {
     if (rows[i] == RegularPatch::kMissing) {
@@ -222,13 +222,13 @@ void SurfaceCells<Net>::gather(const Piece& piece, const Vec4& origin, Vec4* poi
 }
 
 template <typename Net>
-void SurfaceCells<Net>::points(const Cell& cell, const Vec4& origin, Vec4* scratch, Vec4* points) const {
+void SurfaceCells<Net>::points(const Cell& cell, const Double4& origin, Double4* scratch, Double4* points) const {
   gather(pieces_->begin(0)[cell.piece], origin, scratch);
   const CellShape& shape = shapes_->shape(cell.shape);
   const double* weights = shape.weights.data();
   for (Index r = 0; r < shape.rows; ++r, weights += shape.columns) {
-    Vec4 even{};
-    Vec4 odd{};
+    Double4 even{};
+    Double4 odd{};
     Index k = 0;
     for (; k + 1 < shape.columns; k += 2) {
       even += weights[k] * scratch[k];
@@ -249,8 +249,8 @@ Placement SurfaceCells<Net>::placement(const Cell& cell) const {
 
 /// Each halves the bend.
 template <typename Net>
-int SurfaceCells<Net>::halvings(const Piece& piece, Vec4* scratch) const {
-  std::array<Vec4, Net::kPoints> net;
+int SurfaceCells<Net>::halvings(const Piece& piece, Double4* scratch) const {
+  std::array<Double4, Net::kPoints> net;
   gather(piece, centre_, scratch);
   net_of_spline<Net>(scratch, net.data());
   double bend = NetFrame<Net>(net.data()).bend();
@@ -267,7 +267,7 @@ void SurfaceCells<Net>::choose_cells(const Buffer<std::uint8_t>& holes, const Pr
   parallel_for(
       count,
       [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-        std::vector<Vec4> scratch(most_points_);
+        std::vector<Double4> scratch(most_points_);
         for (std::ptrdiff_t i = begin; i < end; ++i) {
           const Piece& piece = pieces[i];
           if (!holes.empty() && holes[piece.face] != 0) {
@@ -288,26 +288,27 @@ void SurfaceCells<Net>::choose_cells(const Buffer<std::uint8_t>& holes, const Pr
 /// Points whose hull has the cell in it, seen from the centre. A ring's hull is much larger than its face, so a few
 /// halvings are made.
 template <typename Net>
-void SurfaceCells<Net>::gather_bounds(const Cell& cell, std::vector<Vec4>& scratch, std::vector<Vec4>& bounds) const {
+void SurfaceCells<Net>::gather_bounds(const Cell& cell, std::vector<Double4>& scratch,
+                                      std::vector<Double4>& bounds) const {
   const CellShape& its_shape = shape(cell);
   bounds.resize(static_cast<std::size_t>(its_shape.rows));
   points(cell, centre_, scratch.data(), bounds.data());
   if (its_shape.kind == RingSteps::kPatch) return;
-  std::vector<Vec4> ring;
+  std::vector<Double4> ring;
   ring.swap(bounds);
   add_ring_bounds(its_shape.kind, ring, kBoundLevels, bounds);
 }
 
 template <typename Net>
-void SurfaceCells<Net>::add_ring_bounds(Index kind, std::vector<Vec4>& ring, int levels,
-                                        std::vector<Vec4>& bounds) const {
+void SurfaceCells<Net>::add_ring_bounds(Index kind, std::vector<Double4>& ring, int levels,
+                                        std::vector<Double4>& bounds) const {
   if (levels == 0) {
     bounds.insert(bounds.end(), ring.begin(), ring.end());
     return;
   }
   for (int number = 0; number < 4; ++number) {
     const RingSteps::Child& child = steps_.child(kind, number);
-    std::vector<Vec4> points(static_cast<std::size_t>(child.rows.count()));
+    std::vector<Double4> points(static_cast<std::size_t>(child.rows.count()));
     ring_child_points<Net>(child, ring.data(), points.data());
     if (child.kind != RingSteps::kPatch) {
       add_ring_bounds(child.kind, points, levels - 1, bounds);
@@ -326,13 +327,13 @@ void SurfaceCells<Net>::build_tree(const Progress& progress) {
   parallel_for(
       static_cast<std::ptrdiff_t>(cells_.size()),
       [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-        std::vector<Vec4> scratch(most_points_);
-        std::vector<Vec4> bounds;
+        std::vector<Double4> scratch(most_points_);
+        std::vector<Double4> bounds;
         for (std::ptrdiff_t i = begin; i < end; ++i) {
           gather_bounds(cells_[i], scratch, bounds);
-          for (Vec4& point : bounds) point *= scale_;
+          for (Double4& point : bounds) point *= scale_;
           boxes[i] = box_of(bounds);
-          const Vec4 along = bounds[Net::kCorner[1]] - bounds[0];
+          const Double4 along = bounds[Net::kCorner[1]] - bounds[0];
           leaning[i] = leaning_box_of(reinterpret_cast<const Eigen::Vector4d*>(bounds.data()), bounds.size(),
                                       {along[0], along[1], along[2]});
         }
@@ -348,10 +349,10 @@ void SurfaceCells<Net>::build_tree(const Progress& progress) {
 
 template class CellShapes<QuadNet>;
 template class CellShapes<TriangleNet>;
-template void ring_child_points<QuadNet>(const RingSteps::Child&, const Vec4*, Vec4*);
-template void ring_child_points<TriangleNet>(const RingSteps::Child&, const Vec4*, Vec4*);
-template void net_of_spline<QuadNet>(const Vec4*, Vec4*);
-template void net_of_spline<TriangleNet>(const Vec4*, Vec4*);
+template void ring_child_points<QuadNet>(const RingSteps::Child&, const Double4*, Double4*);
+template void ring_child_points<TriangleNet>(const RingSteps::Child&, const Double4*, Double4*);
+template void net_of_spline<QuadNet>(const Double4*, Double4*);
+template void net_of_spline<TriangleNet>(const Double4*, Double4*);
 template class SurfaceCells<QuadNet>;
 template class SurfaceCells<TriangleNet>;
 

@@ -60,11 +60,11 @@ class CellShapes {
 
 /// Points of a patch's rows, in the order of its spline, become its net.
 template <typename Net>
-void net_of_spline(const Vec4* spline, Vec4* net);
+void net_of_spline(const Double4* spline, Double4* net);
 
 /// The points of a ring's child, `child.rows` of the ring, completed where it is a patch.
 template <typename Net>
-void ring_child_points(const RingSteps::Child& child, const Vec4* ring, Vec4* points);
+void ring_child_points(const RingSteps::Child& child, const Double4* ring, Double4* points);
 
 /// The cells of a surface, and what a search needs of it. Const once built.
 template <typename Net>
@@ -77,7 +77,7 @@ class SurfaceCells {
   const RingSteps& steps() const { return steps_; }
   const BoxTree& tree() const { return tree_; }
   /// The tree has (point - centre) * scale of a point, which is about 1: squares of floats must not leave their range.
-  const Vec4& centre() const { return centre_; }
+  const Double4& centre() const { return centre_; }
   double scale() const { return scale_; }
 
   /// A cell of the tree.
@@ -91,30 +91,30 @@ class SurfaceCells {
   Index face(const Cell& cell) const { return pieces_->begin(0)[cell.piece].face; }
   Placement placement(const Cell& cell) const;  ///< in its face
   /// The cell's net or ring as seen from a point. `scratch` has room for the control points of any piece.
-  void points(const Cell& cell, const Vec4& origin, Vec4* scratch, Vec4* points) const;
+  void points(const Cell& cell, const Double4& origin, Double4* scratch, Double4* points) const;
   std::size_t most_points() const { return most_points_; }
   /// Of the base's vertex.
-  const Vec4& limit_position(Index vertex) const { return limits_[vertex]; }
+  const Double4& limit_position(Index vertex) const { return limits_[vertex]; }
 
  private:
-  void gather(const Piece& piece, const Vec4& origin, Vec4* points) const;
-  int halvings(const Piece& piece, Vec4* scratch) const;
+  void gather(const Piece& piece, const Double4& origin, Double4* points) const;
+  int halvings(const Piece& piece, Double4* scratch) const;
   void find_values(ConstValuesRef base_values);
   void choose_cells(const Buffer<std::uint8_t>& holes, const Progress& progress);
   void build_tree(const Progress& progress);
-  void gather_bounds(const Cell& cell, std::vector<Vec4>& scratch, std::vector<Vec4>& bounds) const;
-  void add_ring_bounds(Index kind, std::vector<Vec4>& ring, int levels, std::vector<Vec4>& bounds) const;
+  void gather_bounds(const Cell& cell, std::vector<Double4>& scratch, std::vector<Double4>& bounds) const;
+  void add_ring_bounds(Index kind, std::vector<Double4>& ring, int levels, std::vector<Double4>& bounds) const;
   Buffer<std::uint8_t> base_holes(const Topology& topology, const Scheme& scheme) const;
 
   std::unique_ptr<Refinement> first_;
   std::unique_ptr<Pieces> pieces_;
   RingSteps steps_;
   std::unique_ptr<CellShapes<Net>> shapes_;
-  std::vector<Buffer<Vec4>> values_;  ///< of each level
-  Buffer<Vec4> limits_;
+  std::vector<Buffer<Double4>> values_;  ///< of each level
+  Buffer<Double4> limits_;
   Buffer<Cell> cells_;
   BoxTree tree_;
-  Vec4 centre_{};
+  Double4 centre_{};
   double scale_ = 1.0;
   std::size_t most_points_ = 0;
 };

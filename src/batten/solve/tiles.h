@@ -3,13 +3,13 @@
 #include <array>
 #include <vector>
 
+#include "batten/double4.h"
 #include "batten/solve/row_table.h"
 
 namespace batten {
 
-/// Four columns side by side, as the compiler's vector types.
+/// Four columns side by side, as Double4.
 using Float4 = float __attribute__((vector_size(16)));
-using Double4 = double __attribute__((vector_size(32)));
 
 /// Rows [first_row, first_row + row_count) of a tile share a pattern; their columns follow each other in Tile::columns,
 /// but for the last ring, whose rows are not needed.
