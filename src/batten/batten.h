@@ -5,6 +5,7 @@
 #include "batten/interpolate/interpolator.h"
 #include "batten/io/io.h"
 #include "batten/limit/adaptive.h"
+#include "batten/limit/curvature.h"
 #include "batten/limit/limit_matrix.h"
 #include "batten/limit/limit_surface.h"
 #include "batten/limit/nearest_point.h"

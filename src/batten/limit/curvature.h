@@ -13,6 +13,7 @@ namespace batten {
 /// the face counts do not belong together.
 Buffer<SurfacePlace> vertex_places(const LimitSurface& surface, const Topology& refined);
 
+/// Row v belongs to vertex v of the refined mesh.
 struct Curvature {
   Eigen::VectorXd mean;      ///< V, 1/unit: 1/r on a sphere with outward normals
   Eigen::VectorXd gaussian;  ///< V, 1/unit^2
