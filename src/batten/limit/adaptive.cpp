@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -36,8 +37,13 @@ Buffer<std::uint8_t> base_holes(const Topology& control, const Topology& base, c
 
 void check(const AdaptiveOptions& options) {
   const auto bad = [](const std::string& what) { throw Error(ErrorCode::BadArgument, what); };
-  for (const double bound : {options.chord, options.edge_length, options.angle}) {
-    if (!(bound >= 0.0) || !std::isfinite(bound)) bad("a chord tolerance, an edge length or an angle is positive");
+  const std::pair<const char*, double> bounds[] = {
+      {"chord tolerance", options.chord}, {"edge length", options.edge_length}, {"angle", options.angle}};
+  for (const auto& [name, bound] : bounds) {
+    if (bound >= 0.0 && std::isfinite(bound)) continue;
+    std::ostringstream what;
+    what << "the " << name << " is " << bound << "; it must be positive, or 0 where it is not asked for";
+    bad(what.str());
   }
   if (options.chord == 0.0 && options.edge_length == 0.0 && options.angle == 0.0) {
     bad("adaptive tessellation needs a chord tolerance, an edge length or an angle");

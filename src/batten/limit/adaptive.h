@@ -20,9 +20,10 @@ enum class FaceKind {
 
 /// 0: not asked for. Several bounds hold together; at least one is needed.
 struct AdaptiveOptions {
-  /// Largest distance between mesh and surface, in the points' unit. Where the surface is regular this is certain, from
-  /// bounds of the second derivatives (limit/chord_bound.h). Around other vertices it rests on exact points three
-  /// levels deeper and on the control points' hull from there.
+  /// Largest distance between mesh and surface, in the points' unit. On regular quads this is certain, from bounds of
+  /// the second derivatives (limit/chord_bound.h). So it is on regular triangles whose control points show that the
+  /// patch does not fold over its plane; of others that is taken for granted. Around other vertices it rests on exact
+  /// points three levels deeper and on the control points' hull from there.
   double chord = 0.0;
   /// No edge is longer.
   double edge_length = 0.0;
@@ -51,8 +52,8 @@ struct AdaptiveMesh {
 };
 
 /// control: V-by-3. Threaded, the same for any number of threads. O(result), some 100 bytes of memory a face beside it.
-/// Throws Error(BadArgument) without a bound or for one that is not positive, Error(TooLarge), and what LimitSurface
-/// throws.
+/// Throws Error(BadArgument) without a bound or for one that is negative or not finite, Error(TooLarge), and what
+/// LimitSurface throws.
 AdaptiveMesh tessellate_adaptively(const Topology& topology, const Scheme& scheme, ConstValuesRef control,
                                    const AdaptiveOptions& options, const Progress& progress = {});
 

@@ -13,8 +13,10 @@ inline constexpr unsigned kEndSides = 0xF0U;
 /// of (after Filip, Magedson and Markot 1986, key FMM86). points: 16 (12) rows of three, as limit/spline_jet.h.
 ///
 /// Second derivatives along the patch's middle plane count only as they displace the surface, by what that changes its
-/// height over the plane: flat patches have bound 0 however unevenly they are spaced. Sides on curves count in full,
-/// but for what runs along them.
+/// height over the plane: flat patches have bound 0 however unevenly they are spaced. That needs a patch that does not
+/// fold over its plane. Where the control points do not show it, second derivatives of quads count in full; of
+/// triangles, whose lattices show too little, it is taken for granted. Sides on curves count in full, but for what runs
+/// along them.
 double quad_chord_bound(const double* points, CurveSides curves);
 double triangle_chord_bound(const double* points, CurveSides curves);
 
