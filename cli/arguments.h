@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "batten/expand/texture.h"
 #include "batten/interpolate/interpolator.h"
 #include "batten/limit/adaptive.h"
 #include "batten/mesh/repair.h"
@@ -101,6 +102,18 @@ struct DistanceArguments {
   std::string scan;
 };
 
+struct TextureArguments {
+  CommonArguments common;
+  PictureArguments picture;
+  std::optional<TexturePreset> preset;  ///< none: plain noise
+  PresetOptions noise;
+  std::vector<std::array<double, 3>> colors;  ///< of the ramp, instead of the preset's
+  int levels = -1;                            ///< -1: as many as make the colours fine
+  bool flat = false;
+  std::optional<Length> displace;
+  std::string gallery;  ///< picture of all presets
+};
+
 struct RepairArguments {
   CommonArguments common;
   RepairOptions options;
@@ -114,6 +127,7 @@ int run_adaptive(const SubdivideArguments& arguments);
 int run_convert(const CommonArguments& arguments);
 int run_repair(const RepairArguments& arguments);
 int run_render(const RenderArguments& arguments);
+int run_texture(const TextureArguments& arguments);
 int run_distance(const DistanceArguments& arguments);
 
 }  // namespace batten::cli

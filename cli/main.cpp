@@ -43,6 +43,12 @@ const Names<Coloring> kColorings{{"error", Coloring::Error},     {"moved", Color
 const Names<View> kViews{{"front", View::Front}, {"back", View::Back}, {"left", View::Left},    {"right", View::Right},
                          {"top", View::Top},     {"iso", View::Iso},   {"bottom", View::Bottom}};
 
+const Names<TexturePreset> kPresets{{"marble", TexturePreset::Marble},
+                                    {"wood", TexturePreset::Wood},
+                                    {"granite", TexturePreset::Granite},
+                                    {"rust", TexturePreset::Rust},
+                                    {"clouds", TexturePreset::Clouds}};
+
 /// An option whose words stand for an enumerator; the help lists the words.
 template <typename Enum, typename Target>
 void add_choice(CLI::App& verb, const std::string& name, Target& target, const Names<Enum>& names,
@@ -181,6 +187,7 @@ struct Verbs {
   CommonArguments convert;
   RenderArguments render;
   DistanceArguments distance;
+  TextureArguments texture;
   RepairArguments repair;
 };
 
@@ -293,6 +300,62 @@ void add_render(CLI::App& app, RenderArguments& arguments, int& status) {
   verb.callback([&] { status = run_render(arguments); });
 }
 
+/// "f4f2ee,#3a3f48": colours as they stand in web pages.
+std::string read_colors(const std::string& words, std::vector<std::array<double, 3>>& colors) {
+  colors.clear();
+  std::istringstream text(words);
+  for (std::string word; std::getline(text, word, ',');) {
+    const std::string digits = word.rfind('#', 0) == 0 ? word.substr(1) : word;
+    if (digits.size() != 6 || digits.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos) {
+      return "'" + word + "' is not a colour like ff8800";
+    }
+    const unsigned long number = std::stoul(digits, nullptr, 16);
+    constexpr double kWhite = 255.0;
+    colors.push_back({static_cast<double>(number >> 16U & 255U) / kWhite,
+                      static_cast<double>(number >> 8U & 255U) / kWhite, static_cast<double>(number & 255U) / kWhite});
+  }
+  return colors.empty() ? "needs a colour at least, like ff8800" : "";
+}
+
+void add_noise(CLI::App& verb, TextureArguments& arguments) {
+  PresetOptions& noise = arguments.noise;
+  verb.add_option("--seed", noise.seed, "another number, another texture; the same number, the same texture")
+      ->capture_default_str();
+  verb.add_option("--frequency", noise.frequency, "features along the bounding box's diagonal")
+      ->check(CLI::Range(1e-3, 1e6));
+  verb.add_option("--octaves", noise.octaves, "finer and finer noises to add up")->check(CLI::Range(1, 24));
+  verb.add_option("--gain", noise.gain, "strength of each octave, of the one before; the more, the rougher")
+      ->check(CLI::Range(0.0, 4.0));
+  verb.add_option_function<std::string>(
+          "--colors",
+          [&arguments](const std::string& words) {
+            const std::string wrong = read_colors(words, arguments.colors);
+            if (!wrong.empty()) throw CLI::ValidationError("--colors", wrong);
+          },
+          "the colours to go through, evenly spaced")
+      ->option_text("RRGGBB,RRGGBB,...");
+}
+
+void add_texture(CLI::App& app, TextureArguments& arguments, int& status) {
+  CLI::App& verb = *app.add_subcommand("texture", "colour the limit surface by noise: marble, wood and the like");
+  add_input(verb, arguments.common);
+  add_output(verb, arguments.common);
+  add_surface(verb, arguments.common);
+  add_choice(verb, "--preset", arguments.preset, kPresets, "what it looks like; plain noise if not given");
+  add_noise(verb, arguments);
+  CLI::Option* levels =
+      verb.add_option("--levels", arguments.levels, "refinement; as many as make some 400,000 faces, if not given")
+          ->check(CLI::Range(0, 12));
+  verb.add_flag("--flat", arguments.flat, "colour the mesh as it is, not its limit surface")->excludes(levels);
+  add_length(verb, "--displace", arguments.displace,
+             "also move the surface along its normals by so much times the noise");
+  verb.add_option("--gallery", arguments.gallery, "draw all presets side by side")
+      ->check(has_extension({".png"}))
+      ->option_text("FILE.png");
+  add_picture(verb, arguments.picture);
+  verb.callback([&] { status = run_texture(arguments); });
+}
+
 void add_distance(CLI::App& app, DistanceArguments& arguments, int& status) {
   CLI::App& verb = *app.add_subcommand("distance", "how far points lie from the limit surface of a mesh");
   verb.add_option("SCAN", arguments.scan, "its vertices are measured: .obj .ply .off .stl .xyz")->required();
@@ -319,6 +382,7 @@ int run(int argc, char** argv) {
   add_subdivide(app, verbs.subdivide, status);
   add_render(app, verbs.render, status);
   add_distance(app, verbs.distance, status);
+  add_texture(app, verbs.texture, status);
   add_repair(app, verbs.repair, status);
   CLI::App& info = *app.add_subcommand("info", "what a mesh is made of, and whether a surface can be made of it");
   add_input(info, verbs.info);

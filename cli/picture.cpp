@@ -10,6 +10,7 @@
 #include "cli/vertex_fields.h"
 #ifdef BATTEN_WITH_RENDER
 #include "batten/render/panels.h"
+#include "batten/render/srgb.h"
 #endif
 
 namespace batten::cli {
@@ -71,6 +72,22 @@ Eigen::VectorXd vertex_field(const Subject& subject, const Topology& topology, C
   return errors;
 }
 
+/// The mesh's own colours at its vertices, sRGB; empty where it has none.
+Values vertex_colors(const Mesh& mesh) {
+  for (const Attribute& attribute : mesh.attributes) {
+    if (attribute.name == "color" && !attribute.per_corner() && attribute.values.cols() >= 3)
+      return attribute.values.leftCols(3);
+  }
+  return Values();
+}
+
+/// As the light needs them.
+Values linear_colors(const Values& colors) {
+  return colors.unaryExpr([](double value) {
+    return static_cast<double>(render_detail::decode_srgb(static_cast<float>(std::clamp(value, 0.0, 1.0))));
+  });
+}
+
 /// The refined limit surface with its exact normals and, if asked for, its numbers.
 Scene surface_scene(const Subject& subject, Coloring coloring, const Progress& progress) {
   const Topology control(subject.control, progress);
@@ -80,7 +97,9 @@ Scene surface_scene(const Subject& subject, Coloring coloring, const Progress& p
   if (is_scalar(coloring) && !curved) field = vertex_field(subject, control, coloring);
   Topology topology = with_surface_holes(control, subject.scheme);
   Scheme scheme = subject.scheme;
-  Values values = subject.control.points;
+  const Values colors = vertex_colors(subject.control);
+  Values values(subject.control.points.rows(), 3 + colors.cols());
+  values << subject.control.points, colors;
   for (int level = 0; level < levels; ++level) {
     Refinement step(topology, scheme, {}, progress);
     values = step.apply(values, progress);
@@ -93,8 +112,10 @@ Scene surface_scene(const Subject& subject, Coloring coloring, const Progress& p
     scheme = scheme.after_first_step();
   }
   Scene scene;
-  scene.surface.points = LimitMatrix(topology, scheme, {}, progress).apply(values, progress);
-  const Values normals = limit_normals(topology, scheme, values, LimitMasks::Exact, progress).corners;
+  const Values limit = LimitMatrix(topology, scheme, {}, progress).apply(values, progress);
+  scene.surface.points = limit.leftCols(3);
+  if (colors.cols() > 0) scene.colors = linear_colors(limit.rightCols(3));
+  const Values normals = limit_normals(topology, scheme, values.leftCols(3), LimitMasks::Exact, progress).corners;
   if (curved) {
     const LimitSurface surface(control, subject.scheme, subject.control.points);
     const Curvature curvature = limit_curvature(surface, topology);
@@ -118,6 +139,7 @@ Scene scene_of(const Subject& subject, Coloring coloring, bool quiet) {
   Scene scene;
   if (subject.flat || subject.control.face_count() == 0) {
     scene.surface = subject.control;
+    scene.colors = linear_colors(vertex_colors(subject.control));
     if (coloring == Coloring::Mean || coloring == Coloring::Gaussian) {
       throw Error(
           ErrorCode::BadArgument,
@@ -167,30 +189,23 @@ std::vector<Viewpoint> viewpoints_of(const std::vector<Shot>& shots, const Rende
   return {fit_viewpoint(scenes, options)};
 }
 
-int picture_height(const PictureArguments& arguments) {
-  return std::max(1, arguments.width * 3 / (arguments.before_after ? 8 : 4));
+int picture_height(const PictureArguments& arguments, std::size_t panels) {
+  return std::max(1, arguments.width * 3 / (4 * static_cast<int>(panels)));
 }
 
-}  // namespace
-
-void draw(const Subject& subject, const PictureArguments& arguments, bool quiet) {
-  const Scene after = scene_of(subject, arguments.coloring, quiet);
-  Scene before;
-  before.surface = subject.before;
-  std::vector<Shot> shots;
-  if (arguments.before_after) shots.push_back({&before, subject.before_caption, Shading::Plain});
-  shots.push_back({&after, arguments.before_after ? subject.after_caption : "",
-                   arguments.coloring == Coloring::Zebra ? Shading::Zebra : Shading::Plain});
+RenderOptions render_options(const PictureArguments& arguments, std::size_t panels) {
   RenderOptions options;
   options.samples = arguments.samples;
-  options.marker_radius = subject.marker_radius;
   options.view = arguments.view;
   options.direction = arguments.direction;
   options.style.transparent = arguments.transparent;
-  options.height = arguments.height > 0 ? arguments.height : picture_height(arguments);
-  Panel bar;
-  if (after.scalars.size() > 0 || after.marker_scalars.size() > 0)
-    bar.picture = draw_color_bar(after.scale, options.height, options.style);
+  options.height = arguments.height > 0 ? arguments.height : picture_height(arguments, panels);
+  return options;
+}
+
+/// Side by side, with a bar at the right where it has pixels; one picture or a turntable.
+void draw_shots(const std::vector<Shot>& shots, RenderOptions options, const Panel& bar,
+                const PictureArguments& arguments, bool quiet) {
   options.width = (arguments.width - bar.picture.width) / static_cast<int>(shots.size());
   if (options.width < 1) {
     throw Error(ErrorCode::BadArgument, "the picture is too narrow for its colour bar, which takes " +
@@ -220,9 +235,42 @@ void draw(const Subject& subject, const PictureArguments& arguments, bool quiet)
   }
 }
 
+}  // namespace
+
+void draw(const Subject& subject, const PictureArguments& arguments, bool quiet) {
+  const Scene after = scene_of(subject, arguments.coloring, quiet);
+  Scene before;
+  before.surface = subject.before;
+  std::vector<Shot> shots;
+  if (arguments.before_after) shots.push_back({&before, subject.before_caption, Shading::Plain});
+  shots.push_back({&after, arguments.before_after ? subject.after_caption : "",
+                   arguments.coloring == Coloring::Zebra ? Shading::Zebra : Shading::Plain});
+  RenderOptions options = render_options(arguments, shots.size());
+  options.marker_radius = subject.marker_radius;
+  Panel bar;
+  if (after.scalars.size() > 0 || after.marker_scalars.size() > 0)
+    bar.picture = draw_color_bar(after.scale, options.height, options.style);
+  draw_shots(shots, options, bar, arguments, quiet);
+}
+
+void draw_row(const std::vector<Subject>& subjects, const PictureArguments& arguments, bool quiet) {
+  std::vector<Scene> scenes;
+  scenes.reserve(subjects.size());
+  for (const Subject& subject : subjects) scenes.push_back(scene_of(subject, arguments.coloring, quiet));
+  std::vector<Shot> shots;
+  shots.reserve(subjects.size());
+  for (std::size_t i = 0; i < subjects.size(); ++i) {
+    shots.push_back({&scenes[i], subjects[i].after_caption,
+                     arguments.coloring == Coloring::Zebra ? Shading::Zebra : Shading::Plain});
+  }
+  draw_shots(shots, render_options(arguments, shots.size()), {}, arguments, quiet);
+}
+
 #else
 
-void draw(const Subject& /*subject*/, const PictureArguments& /*arguments*/, bool /*quiet*/) {
+void draw(const Subject& /*subject*/, const PictureArguments& arguments, bool quiet) { draw_row({}, arguments, quiet); }
+
+void draw_row(const std::vector<Subject>& /*subjects*/, const PictureArguments& /*arguments*/, bool /*quiet*/) {
   throw Error(ErrorCode::NotAvailable, "this build has no pictures; configure with BATTEN_WITH_RENDER=ON");
 }
 

@@ -9,7 +9,7 @@ namespace batten::cli {
 
 /// What a verb has to show.
 struct Subject {
-  Mesh control;  ///< the control mesh, or what is drawn as it is
+  Mesh control;  ///< the control mesh, or what is drawn as it is; its colours at the vertices are drawn too
   Scheme scheme;
   int levels = -1;            ///< refinement before the limit positions; -1: as many as make the picture smooth
   bool flat = false;          ///< as it is, not its surface
@@ -29,5 +29,8 @@ int picture_levels(const Topology& topology);
 
 /// Draws and writes. Throws what the operators throw, and Error(NotAvailable) in a build without pictures.
 void draw(const Subject& subject, const PictureArguments& arguments, bool quiet);
+
+/// Several side by side, each with its after_caption, from one viewpoint; without colour bars.
+void draw_row(const std::vector<Subject>& subjects, const PictureArguments& arguments, bool quiet);
 
 }  // namespace batten::cli

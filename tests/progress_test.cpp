@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "batten/expand/mesh_series.h"
+#include "batten/expand/texture.h"
 #include "batten/interpolate/interpolator.h"
 #include "batten/limit/adaptive.h"
 #include "batten/limit/limit_matrix.h"
@@ -69,7 +70,10 @@ std::vector<Named> operations(const io_tests::TemporaryFolder& folder) {
          tessellate_adaptively(topology, scheme, mesh.points, options, progress);
        }},
       {"solve", [](const Progress& progress) { interpolator.solve(mesh.points, progress); }},
-      {"interpolate", [](const Progress& progress) { interpolate(mesh, {}, progress); }}};
+      {"interpolate", [](const Progress& progress) { interpolate(mesh, {}, progress); }},
+      {"texture", [](const Progress& progress) {
+         textured_surface(topology, scheme, mesh, preset_texture(TexturePreset::Clouds), {1}, progress);
+       }}};
   for (const char* name : {"m.obj", "m.ply", "m.off", "m.stl"}) {
     const std::string path = folder.path(name);
     all.push_back({"write", [path](const Progress& progress) { write_mesh(path, mesh, {}, progress); }});

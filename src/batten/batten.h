@@ -1,7 +1,11 @@
 /// \file Everything of the library but pictures (render/render.h).
 #pragma once
 #include "batten/error.h"
+#include "batten/expand/color_ramp.h"
 #include "batten/expand/mesh_series.h"
+#include "batten/expand/solid_noise.h"
+#include "batten/expand/surface_noise.h"
+#include "batten/expand/texture.h"
 #include "batten/interpolate/interpolator.h"
 #include "batten/io/io.h"
 #include "batten/limit/adaptive.h"

@@ -181,6 +181,41 @@ TEST_F(Tool, EveryColourDraws) {
   EXPECT_NE(curved.err.find("--flat"), std::string::npos) << curved.err;
 }
 
+TEST_F(Tool, TexturesGoIntoFilesAndPictures) {
+  const std::string marble = "texture " + kModels + "tripod.obj --levels 2 --preset marble ";
+  ASSERT_EQ(run(marble + "-o a.ply --report r.json --picture a.png --width 161 --samples 1").status, 0);
+  ASSERT_EQ(run(marble + "-o b.ply --threads 1").status, 0);
+  EXPECT_EQ(text_of(path("a.ply")), text_of(path("b.ply")));
+  const Mesh colored = read_mesh(path("a.ply"));
+  const auto color = std::find_if(colored.attributes.begin(), colored.attributes.end(),
+                                  [](const Attribute& attribute) { return attribute.name == "color"; });
+  ASSERT_NE(color, colored.attributes.end());
+  EXPECT_GT(color->values.maxCoeff() - color->values.minCoeff(), 0.3);
+  EXPECT_EQ(nlohmann::json::parse(text_of(path("r.json")))["texture"], "marble");
+  // Whoever draws the file sees the colours.
+  const std::string picture = " --flat --width 161 --samples 1";
+  ASSERT_EQ(run("render a.ply -o drawn.png" + picture).status, 0);
+  ASSERT_EQ(run("texture " + kModels + "tripod.obj --levels 2 --seed 2 -o c.ply").status, 0);
+  ASSERT_EQ(run("render c.ply -o other.png" + picture).status, 0);
+  EXPECT_NE(text_of(path("drawn.png")), text_of(path("other.png")));
+}
+
+TEST_F(Tool, DrawsAllTexturesSideBySide) {
+  const std::string gallery = "texture " + kModels + "tripod.obj --levels 1 --gallery g.png --samples 1 ";
+  ASSERT_EQ(run(gallery + "--width 500 --height 100").status, 0);
+  EXPECT_EQ(png_shape(path("g.png")), (std::array<int, 3>{500, 100, 3}));
+}
+
+TEST_F(Tool, RefusesColoursAndPresetsThatAreNone) {
+  const std::string command = "texture " + kModels + "cube.obj -o x.ply ";
+  EXPECT_EQ(run(command + "--preset leather").status, 2);
+  const Outcome result = run(command + "--colors ff8800,blue");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_NE(result.err.find("'blue' is not a colour like ff8800"), std::string::npos) << result.err;
+  EXPECT_EQ(run(command + "--flat --levels 2").status, 2);
+  EXPECT_FALSE(fs::exists(path("x.ply")));
+}
+
 TEST_F(Tool, ErrorNeedsTargets) {
   const std::string picture = "render " + kModels + "tripod.obj -o e.png --width 200 --samples 1 --color error";
   const Outcome without = run(picture);

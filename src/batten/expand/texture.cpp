@@ -1,0 +1,119 @@
+#include "batten/expand/texture.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "batten/error.h"
+#include "batten/limit/limit_matrix.h"
+#include "batten/limit/surface_mesh.h"
+#include "batten/parallel/parallel.h"
+#include "batten/progress.h"
+
+namespace batten {
+namespace {
+
+void drop_attribute(Mesh& mesh, const std::string& name) {
+  auto& all = mesh.attributes;
+  all.erase(std::remove_if(all.begin(), all.end(), [&](const Attribute& a) { return a.name == name; }), all.end());
+}
+
+/// Of any length: at each vertex the mean of its corners' normals, so that it stands between the sides of a crease.
+Points vertex_normals(const Mesh& mesh) {
+  Points normals = Points::Zero(mesh.vertex_count(), 3);
+  const Attribute* at_vertices = nullptr;
+  const Attribute* at_corners = nullptr;
+  for (const Attribute& attribute : mesh.attributes) {
+    if (attribute.name == "normal") (attribute.per_corner() ? at_corners : at_vertices) = &attribute;
+  }
+  if (at_corners == nullptr) {
+    normals = at_vertices->values;
+  } else {
+    for (std::size_t c = 0; c < mesh.face_vertices.size(); ++c) {
+      const Index row = at_corners->corner_rows[c];
+      if (row >= 0) normals.row(mesh.face_vertices[c]) += at_corners->values.row(row);
+    }
+  }
+  return normals;
+}
+
+/// Of the faces around each vertex, by area.
+Points flat_normals(const Mesh& mesh) {
+  Points normals = Points::Zero(mesh.vertex_count(), 3);
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const Index* vertices = mesh.face_vertices.data() + mesh.face_offsets[f];
+    const Index size = mesh.face_size(f);
+    Eigen::RowVector3d area = Eigen::RowVector3d::Zero();
+    const Eigen::RowVector3d origin = mesh.points.row(vertices[0]);
+    for (Index i = 1; i + 1 < size; ++i) {
+      area += Eigen::RowVector3d(mesh.points.row(vertices[i]) - origin)
+                  .cross(Eigen::RowVector3d(mesh.points.row(vertices[i + 1]) - origin));
+    }
+    for (Index i = 0; i < size; ++i) normals.row(vertices[i]) += area;
+  }
+  return normals;
+}
+
+/// In diagonals of the bounding box from its middle, x along its longest side and z along its shortest.
+Points places_of(ConstValuesRef points) {
+  Points places(points.rows(), 3);
+  if (points.rows() == 0) return places;
+  const Eigen::RowVector3d lowest = points.colwise().minCoeff();
+  const Eigen::RowVector3d highest = points.colwise().maxCoeff();
+  const Eigen::RowVector3d centre = 0.5 * lowest + 0.5 * highest;
+  const Eigen::RowVector3d sides = highest - lowest;
+  std::array<int, 3> axes{0, 1, 2};
+  std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return sides[a] > sides[b]; });
+  const double diagonal = sides.norm() > 0.0 ? sides.norm() : 1.0;
+  for (int k = 0; k < 3; ++k) places.col(k) = (points.col(axes[k]).array() - centre[axes[k]]) / diagonal;
+  return places;
+}
+
+Values colors_of(const Texture& texture, const Points& places, const Values& noise) {
+  Values colors(places.rows(), 3);
+  const double frequency = texture.noises.empty() ? 1.0 : texture.noises.front().frequency;
+  parallel_for(places.rows(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (std::ptrdiff_t v = begin; v < end; ++v) {
+      const Eigen::Vector3d place = frequency * places.row(v).transpose();
+      colors.row(v) = texture.ramp.color(texture.pattern(place, noise.data() + v * noise.cols()));
+    }
+  });
+  return colors;
+}
+
+}  // namespace
+
+Mesh textured_surface(const Topology& topology, const Scheme& scheme, const Mesh& control, const Texture& texture,
+                      const TextureOptions& options, const Progress& progress) {
+  constexpr double kSurface = 0.4;  // of the time
+  constexpr double kLevels = 0.5;
+  if (!texture.pattern) throw Error(ErrorCode::BadArgument, "the texture has no pattern");
+  if (!std::isfinite(options.displacement)) {
+    throw Error(ErrorCode::BadArgument, "the displacement must be finite, not " + std::to_string(options.displacement));
+  }
+  const int levels = options.flat ? 0 : options.levels;
+  Mesh mesh = options.flat ? control
+                           : surface_mesh(topology, scheme, control, levels, progress_within(progress, 0.0, kSurface));
+  const Points places = places_of(mesh.points);
+  const Values noise = SurfaceNoise(topology, scheme, levels, progress_within(progress, kSurface, kLevels))
+                           .values(places, texture.noises, progress_within(progress, kLevels, 1.0));
+  drop_attribute(mesh, "color");
+  mesh.attributes.push_back({"color", colors_of(texture, places, noise), {}});
+  if (options.displacement != 0.0 && noise.cols() > 0) {
+    const Points normals = options.flat ? flat_normals(mesh) : vertex_normals(mesh);
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+      const double length = normals.row(v).norm();
+      if (length > 0.0) mesh.points.row(v) += options.displacement * noise(v, 0) / length * normals.row(v);
+    }
+    drop_attribute(mesh, "normal");
+  }
+  return mesh;
+}
+
+Texture plain_texture(const NoiseOptions& noise, const ColorRamp& ramp) {
+  return {{noise}, [](const Eigen::Vector3d& /*place*/, const double* n) { return 0.5 + 0.25 * n[0]; }, ramp};
+}
+
+}  // namespace batten
