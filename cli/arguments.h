@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "batten/expand/denoise.h"
 #include "batten/expand/texture.h"
 #include "batten/interpolate/interpolator.h"
 #include "batten/limit/adaptive.h"
@@ -114,6 +115,13 @@ struct TextureArguments {
   std::string gallery;  ///< picture of all presets
 };
 
+struct DenoiseArguments {
+  CommonArguments common;
+  PictureArguments picture;
+  DenoiseOptions options;
+  std::optional<double> strength;  ///< in edge lengths, instead of passes
+};
+
 struct RepairArguments {
   CommonArguments common;
   RepairOptions options;
@@ -129,5 +137,6 @@ int run_repair(const RepairArguments& arguments);
 int run_render(const RenderArguments& arguments);
 int run_texture(const TextureArguments& arguments);
 int run_distance(const DistanceArguments& arguments);
+int run_denoise(const DenoiseArguments& arguments);
 
 }  // namespace batten::cli

@@ -34,6 +34,7 @@ const Names<OnSingular> kOnSingular{
     {"refuse", OnSingular::Refuse}, {"least-squares", OnSingular::LeastSquares}, {"alpha", OnSingular::Alpha}};
 const Names<LimitMasks> kMasks{{"exact", LimitMasks::Exact}, {"opensubdiv", LimitMasks::OpenSubdiv}};
 
+const Names<SeriesMatrix> kMatrices{{"limit", SeriesMatrix::Limit}, {"cotangent", SeriesMatrix::Cotangent}};
 const Names<FaceKind> kFaces{{"quads", FaceKind::Quads}, {"triangles", FaceKind::Triangles}};
 
 const Names<Coloring> kColorings{{"error", Coloring::Error},     {"moved", Coloring::Moved},
@@ -180,7 +181,54 @@ void add_repair(CLI::App& app, RepairArguments& arguments, int& status) {
   verb.callback([&] { status = run_repair(arguments); });
 }
 
+void add_series(CLI::App& verb, SeriesMatrix& matrix) {
+  add_choice(verb, "--weights", matrix, kMatrices,
+             "limit: of the scheme, by valence, the faster; cotangent: by the shape, however it is meshed");
+}
+
+void add_denoise(CLI::App& app, DenoiseArguments& arguments, int& status) {
+  CLI::App& verb = *app.add_subcommand("denoise", "smooth noise away and leave the shape");
+  add_input(verb, arguments.common);
+  add_output(verb, arguments.common);
+  add_surface(verb, arguments.common);
+  DenoiseOptions& options = arguments.options;
+  CLI::Option* automatic =
+      verb.add_flag("--auto", options.automatic, "measure the noise, and smooth as much as takes it away");
+  CLI::Option* strength =
+      verb.add_option("--strength", arguments.strength, "how long a bump may be, in edge lengths, and still vanish")
+          ->check(CLI::Range(2.0, 1000.0))
+          ->option_text("EDGES")
+          ->excludes(automatic);
+  verb.add_option("--passes", options.passes, "how often to smooth, instead of a strength")
+      ->check(CLI::Range(0, 1000000))
+      ->capture_default_str()
+      ->excludes(automatic)
+      ->excludes(strength);
+  verb.add_option("-m", options.m, "the larger, the sharper between noise and shape: a pass keeps m + 1 terms")
+      ->check(CLI::Range(0, 100))
+      ->capture_default_str()
+      ->excludes(automatic);
+  add_series(verb, options.matrix);
+  verb.add_flag("--keep-boundary", options.keep_boundary, "leave boundary vertices where they are");
+  verb.add_flag("--keep-volume", options.keep_volume, "scale closed components to the volume that they had");
+  verb.add_option_function<double>(
+          "--features",
+          [&options](const double& degrees) {
+            options.features = true;
+            options.feature_options.degrees = degrees;
+          },
+          "find edges that are sharper than this, and smooth along them only, as along creases")
+      ->check(CLI::Range(1.0, 179.0))
+      ->option_text("DEGREES");
+  add_picture(verb, arguments.picture);
+  verb.add_flag_callback(
+      "--color-moved", [&] { arguments.picture.coloring = Coloring::Moved; },
+      "colour the picture by how far each vertex was moved");
+  verb.callback([&] { status = run_denoise(arguments); });
+}
+
 struct Verbs {
+  DenoiseArguments denoise;
   CommonArguments info;
   InterpolateArguments interpolate;
   SubdivideArguments subdivide;
@@ -383,6 +431,7 @@ int run(int argc, char** argv) {
   add_render(app, verbs.render, status);
   add_distance(app, verbs.distance, status);
   add_texture(app, verbs.texture, status);
+  add_denoise(app, verbs.denoise, status);
   add_repair(app, verbs.repair, status);
   CLI::App& info = *app.add_subcommand("info", "what a mesh is made of, and whether a surface can be made of it");
   add_input(info, verbs.info);

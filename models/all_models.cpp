@@ -1,20 +1,37 @@
 #include <cmath>
+#include <random>
 
 #include "batten/mesh/primitives.h"
+#include "batten/refine/refined_mesh.h"
+#include "batten/refine/refinement.h"
 #include "shapes.h"
 
 namespace batten::models {
 
+/// The noise is about normal, a twentieth of a unit cell; sums of whole numbers are the same everywhere.
+Mesh bracket_scan() {
+  constexpr double kDeviation = 0.012;
+  const Mesh control = bracket();
+  const Topology topology(control);
+  Mesh scan = refine_mesh(topology, choose_scheme(control), control, 2).mesh;
+  scan.creases.clear();
+  std::mt19937 random(1);
+  for (Index v = 0; v < scan.vertex_count(); ++v) {
+    for (int c = 0; c < 3; ++c) {
+      double sum = 0.0;
+      for (int i = 0; i < 12; ++i) sum += static_cast<double>(random() >> 8) / (1 << 24);
+      scan.points(v, c) += kDeviation * (sum - 6.0);
+    }
+  }
+  return scan;
+}
+
 std::vector<Model> all_models() {
-  std::vector<Model> models = {{"pipe-joint", pipe_joint()},
-                               {"tripod", tripod()},
-                               {"torus-knot", torus_knot()},
-                               {"bracket", bracket()},
-                               {"creature", creature()},
-                               {"tetrahedron", tetrahedron()},
-                               {"cube", cube()},
-                               {"octahedron", octahedron()},
-                               {"dodecahedron", dodecahedron()},
+  std::vector<Model> models = {{"pipe-joint", pipe_joint()},   {"tripod", tripod()},
+                               {"torus-knot", torus_knot()},   {"bracket", bracket()},
+                               {"creature", creature()},       {"bracket-scan", bracket_scan()},
+                               {"tetrahedron", tetrahedron()}, {"cube", cube()},
+                               {"octahedron", octahedron()},   {"dodecahedron", dodecahedron()},
                                {"icosahedron", icosahedron()}};
   // Far more than a picture shows, and the same text wherever sines and cosines differ in their last bits.
   constexpr double kGrain = 1e4;

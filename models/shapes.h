@@ -18,6 +18,9 @@ Mesh torus_knot();  ///< a tube along a trefoil, 72 by 8; closed
 Mesh bracket();     ///< an angle bracket with a rib and four bolt holes; creases of 10 and of 2.5
 Mesh creature();    ///< a body, four legs, a head with a snout and ears, a tail; closed
 
+/// The bracket refined twice, its creases untold, with noise: what a scanner makes of it.
+Mesh bracket_scan();
+
 /// The tripod as a bad export may leave it: legs that share no vertices, one inside out; a fin on another; a face
 /// twice, a face without area, a vertex without a face.
 Mesh broken_tripod(const Mesh& tripod);

@@ -3,6 +3,7 @@
 
 #include <thread>
 
+#include "batten/expand/denoise.h"
 #include "batten/expand/mesh_series.h"
 #include "batten/expand/texture.h"
 #include "batten/interpolate/interpolator.h"
@@ -61,6 +62,14 @@ std::vector<Named> operations(const io_tests::TemporaryFolder& folder) {
            const MeshSeries series(topology, scheme, options, progress_within(half, 0.0, 0.5));
            series.smooth(mesh.points, 2, 20, progress_within(half, 0.5, 1.0));
          }
+       }},
+      {"denoise",
+       [](const Progress& progress) {
+         DenoiseOptions options;
+         options.automatic = true;
+         options.features = true;
+         options.matrix = SeriesMatrix::Cotangent;
+         denoise(mesh, scheme, options, progress);
        }},
       {"adaptive",
        [](const Progress& progress) {

@@ -2,8 +2,10 @@
 #pragma once
 #include "batten/error.h"
 #include "batten/expand/color_ramp.h"
+#include "batten/expand/denoise.h"
 #include "batten/expand/mesh_series.h"
 #include "batten/expand/solid_noise.h"
+#include "batten/expand/strength.h"
 #include "batten/expand/surface_noise.h"
 #include "batten/expand/texture.h"
 #include "batten/interpolate/interpolator.h"

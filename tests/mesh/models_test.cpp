@@ -29,11 +29,11 @@ struct Expectation {
 };
 
 const std::vector<Expectation>& expectations() {
-  static const std::vector<Expectation> list = {{"pipe-joint", 4, -2, true},   {"tripod", 0, 2, true},
-                                                {"torus-knot", 0, 0, true},    {"bracket", 0, -6, true},
-                                                {"creature", 0, 2, true},      {"tetrahedron", 0, 2, false},
-                                                {"cube", 0, 2, true},          {"octahedron", 0, 2, false},
-                                                {"dodecahedron", 0, 2, false}, {"icosahedron", 0, 2, false}};
+  static const std::vector<Expectation> list = {
+      {"pipe-joint", 4, -2, true},   {"tripod", 0, 2, true},      {"torus-knot", 0, 0, true},
+      {"bracket", 0, -6, true},      {"creature", 0, 2, true},    {"bracket-scan", 0, -6, true},
+      {"tetrahedron", 0, 2, false},  {"cube", 0, 2, true},        {"octahedron", 0, 2, false},
+      {"dodecahedron", 0, 2, false}, {"icosahedron", 0, 2, false}};
   return list;
 }
 
@@ -63,6 +63,7 @@ TEST(Models, AreOrientedManifoldsOfTheIntendedShape) {
 
 TEST(Models, HaveNoTinyAndNoHugeEdges) {
   for (const models::Model& model : made()) {
+    if (model.name == "bracket-scan") continue;  // its noise makes edges of any length
     double shortest = std::numeric_limits<double>::infinity();
     double longest = 0.0;
     for (Index f = 0; f < model.mesh.face_count(); ++f) {

@@ -1,0 +1,123 @@
+/// Noise off a mesh.
+#include <fmt/format.h>
+
+#include "batten/error.h"
+#include "batten/expand/strength.h"
+#include "batten/parallel/parallel.h"
+#include "cli/common.h"
+#include "cli/expand.h"
+
+namespace batten::cli {
+namespace {
+
+std::string removed_text(const DenoiseArguments& arguments, const DenoiseResult& result, double diagonal) {
+  const std::string text = fmt::format("{:.4g} rms along the normals ({:.3g} of the diagonal)", result.removed,
+                                       diagonal > 0.0 ? result.removed / diagonal : 0.0);
+  return arguments.options.automatic
+             ? text + fmt::format(", where that noise alone would lose {:.4g}", result.smoothing.removed_noise)
+             : text;
+}
+
+std::string volume_text(const DenoiseArguments& arguments, const DenoiseResult& result) {
+  if (result.closed_components == 0) return "none: no component is closed";
+  const double change = result.volume_before != 0.0 ? result.volume_after / result.volume_before - 1.0 : 0.0;
+  std::string text =
+      fmt::format("{:.6g}, was {:.6g} ({:+.2g} %)", result.volume_after, result.volume_before, 100.0 * change);
+  if (arguments.options.keep_volume && result.scaled_components < result.closed_components) {
+    text += fmt::format("; {} with corners or kept vertices, not scaled",
+                        count_of(result.closed_components - result.scaled_components, "component", "components"));
+  }
+  return text;
+}
+
+void print_table(const DenoiseArguments& arguments, const Topology& topology, const Scheme& scheme,
+                 const DenoiseResult& result, double diagonal, const Stages& stages) {
+  const SmoothingChoice& smoothing = result.smoothing;
+  Table table;
+  table.add("mesh", mesh_text(topology));
+  table.add("scheme", weights_text(scheme, arguments.options.matrix));
+  if (arguments.options.features)
+    table.add("features", count_of(static_cast<std::int64_t>(result.features.size()), "sharp edge", "sharp edges") +
+                              fmt::format(" of over {:g} degrees", arguments.options.feature_options.degrees));
+  table.add("noise", fmt::format("{:.4g} ({:.3g} of the mean edge)", result.noise.deviation,
+                                 result.noise.deviation / mean_edge_length(topology, result.points)));
+  const double halved = halved_wavelength(scheme.kind, arguments.options.matrix, smoothing.m, smoothing.passes);
+  table.add("smoothed", fmt::format("{} with m = {}: {}", count_of(smoothing.passes, "pass", "passes"), smoothing.m,
+                                    halved > 0.0 ? fmt::format("halves bumps {:.3g} edges long", halved)
+                                                 : std::string("halves no regular bump")));
+  table.add("removed", removed_text(arguments, result, diagonal));
+  table.add("moved", fmt::format("{:.4g} rms, at most {:.4g} at vertex {}", result.moved, result.most_moved,
+                                 result.most_moved_vertex));
+  table.add("volume", volume_text(arguments, result));
+  table.add("time", stages.text());
+  table.print(arguments.common);
+}
+
+nlohmann::ordered_json report_json(const DenoiseArguments& arguments, const Topology& topology, const Scheme& scheme,
+                                   const DenoiseResult& result, double diagonal, const nlohmann::ordered_json& repairs,
+                                   const Stages& stages) {
+  const SmoothingChoice& smoothing = result.smoothing;
+  nlohmann::ordered_json features = nlohmann::ordered_json::array();
+  for (const Crease& crease : result.features) features.push_back({crease.a, crease.b});
+  return {
+      {"verb", "denoise"},
+      {"input", arguments.common.input},
+      {"output", arguments.common.output},
+      {"vertices", topology.vertex_count()},
+      {"faces", topology.face_count()},
+      {"repairs", repairs},
+      {"diagonal", diagonal},
+      {"scheme", scheme_json(scheme)},
+      {"weights", weights_word(arguments.options.matrix)},
+      {"automatic", arguments.options.automatic},
+      {"m", smoothing.m},
+      {"passes", smoothing.passes},
+      {"halved_edge_lengths", halved_wavelength(scheme.kind, arguments.options.matrix, smoothing.m, smoothing.passes)},
+      {"noise", result.noise.deviation},
+      {"noise_vertices", result.noise.vertices},
+      {"removed_rms", result.removed},
+      {"expected_removed_rms", smoothing.removed_noise},
+      {"expected_error_rms", smoothing.expected_error},
+      {"moved_rms", result.moved},
+      {"max_moved", result.most_moved},
+      {"max_moved_vertex", result.most_moved_vertex},
+      {"features", features},
+      {"closed_components", result.closed_components},
+      {"scaled_components", result.scaled_components},
+      {"volume_before", result.volume_before},
+      {"volume_after", result.volume_after},
+      {"threads", thread_count()},
+      {"peak_memory_bytes", peak_memory_bytes()},
+      {"seconds", stages.json()}};
+}
+
+}  // namespace
+
+int run_denoise(const DenoiseArguments& arguments) {
+  const CommonArguments& common = arguments.common;
+  const ThreadLimit limit(common.threads);
+  Stages stages;
+  nlohmann::ordered_json repairs;
+  const Mesh mesh = read_input(common, &repairs);
+  stages.finish("read");
+  require_faces(common, mesh);
+  const Scheme scheme = scheme_for(common, mesh);
+  DenoiseOptions options = arguments.options;
+  if (arguments.strength) options.passes = passes_for(scheme.kind, options.matrix, options.m, *arguments.strength);
+  const DenoiseResult result = denoise(mesh, scheme, options, ProgressBar("smoothing", common.quiet).callback());
+  stages.finish("smooth");
+  const Mesh smooth = with_points(mesh, result.points);
+  write_output(common, smooth);
+  stages.finish("write");
+  if (!arguments.picture.path.empty()) {
+    draw_moved(mesh, smooth, arguments.picture, "denoised", common.quiet);
+    stages.finish("picture");
+  }
+  const Topology topology(mesh);
+  const double diagonal = bounding_diagonal(mesh.points);
+  print_table(arguments, topology, scheme, result, diagonal, stages);
+  write_json(common.report, report_json(arguments, topology, scheme, result, diagonal, repairs, stages));
+  return 0;
+}
+
+}  // namespace batten::cli

@@ -1,0 +1,61 @@
+#include "cli/expand.h"
+
+#include "batten/error.h"
+#include "batten/parallel/parallel.h"
+#include "cli/common.h"
+#include "cli/picture.h"
+
+namespace batten::cli {
+
+void require_faces(const CommonArguments& common, const Mesh& mesh) {
+  if (mesh.face_count() > 0) return;
+  throw Error(
+      ErrorCode::BadArgument,
+      common.input + ": there are no faces, only points; smooth and rough are told by neighbours, which faces have");
+}
+
+Mesh with_points(const Mesh& mesh, const Points& points) {
+  Mesh moved = mesh;
+  moved.points = points;
+  std::erase_if(moved.attributes, [](const Attribute& attribute) { return attribute.name == "normal"; });
+  return moved;
+}
+
+double mean_edge_length(const Topology& topology, ConstValuesRef points) {
+  const auto lengths = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    double sum = 0.0;
+    for (auto e = static_cast<Index>(begin); e < end; ++e) {
+      const Index h = topology.edge_half_edge(e);
+      sum += (points.row(topology.origin(h)) - points.row(topology.destination(h))).norm();
+    }
+    return sum;
+  };
+  const double sum = parallel_reduce(topology.edge_count(), 0.0, lengths, [](double a, double b) { return a + b; });
+  return topology.edge_count() > 0 ? sum / topology.edge_count() : 0.0;
+}
+
+const char* weights_word(SeriesMatrix matrix) { return matrix == SeriesMatrix::Limit ? "limit" : "cotangent"; }
+
+std::string weights_text(const Scheme& scheme, SeriesMatrix matrix) {
+  return scheme_text(scheme) + (matrix == SeriesMatrix::Limit ? "" : ", cotangent weights");
+}
+
+void draw_moved(const Mesh& before, const Mesh& after, const PictureArguments& picture, const std::string& caption,
+                bool quiet) {
+  Subject subject;
+  subject.control = after;
+  subject.flat = true;
+  subject.before = before;
+  subject.before_caption = "the mesh given";
+  subject.after_caption = caption;
+  PictureArguments arguments = picture;
+  if (picture.coloring == Coloring::Moved) {
+    arguments.coloring = Coloring::None;
+    subject.numbers = (after.points - before.points).rowwise().norm();
+    subject.numbers_scale.title = "distance moved";
+    subject.numbers_scale.unit = "in the mesh's unit";
+  }
+  draw(subject, arguments, quiet);
+}
+
+}  // namespace batten::cli

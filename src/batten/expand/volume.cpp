@@ -1,0 +1,82 @@
+#include "batten/expand/volume.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace batten {
+
+namespace {
+
+double face_volume(const Topology& topology, ConstValuesRef points, Index base, Index f) {
+  const Eigen::RowVector3d origin = points.row(base);
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (Index h = topology.face_begin(f); h < topology.face_end(f); ++h) {
+    const Eigen::Vector3d a = (points.row(topology.origin(h)) - origin).transpose();
+    const Eigen::Vector3d b = (points.row(topology.destination(h)) - origin).transpose();
+    centre += a;
+    normal += a.cross(b);
+  }
+  return centre.dot(normal) / (6.0 * topology.face_size(f));
+}
+
+}  // namespace
+
+Index ComponentVolumes::closed_count() const { return static_cast<Index>(std::count(closed.begin(), closed.end(), 1)); }
+double ComponentVolumes::sum() const { return std::accumulate(volumes.begin(), volumes.end(), 0.0); }
+
+ComponentVolumes component_volumes(const Topology& topology, ConstValuesRef points) {
+  require_vertex_rows(topology, points);
+  ComponentVolumes result{connected_components(topology), {}, {}};
+  const auto count = static_cast<std::size_t>(result.components.count);
+  result.closed.assign(count, 1);
+  result.volumes.assign(count, 0.0);
+  const Buffer<Index>& of_vertex = result.components.of_vertex;
+  for (Index v = 0; v < topology.vertex_count(); ++v) {
+    if (topology.is_isolated(v) || topology.is_boundary_vertex(v)) result.closed[of_vertex[v]] = 0;
+  }
+  // About each component's first vertex, so that a mesh far from the origin keeps its digits.
+  std::vector<Index> first(count, -1);
+  for (Index v = 0; v < topology.vertex_count(); ++v) {
+    if (first[of_vertex[v]] < 0) first[of_vertex[v]] = v;
+  }
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    const Index component = of_vertex[topology.origin(topology.face_begin(f))];
+    if (result.closed[component] == 0) continue;
+    result.volumes[component] += face_volume(topology, points, first[component], f);
+  }
+  return result;
+}
+
+Index restore_volumes(const MeshSeries& series, const ComponentVolumes& before, Points& points) {
+  constexpr double kLeastShare = 0.5;
+  const Topology& topology = series.topology();
+  const ComponentVolumes now = component_volumes(topology, points);
+  const Buffer<Index>& of_vertex = now.components.of_vertex;
+  const auto count = static_cast<std::size_t>(now.components.count);
+  std::vector<double> factors(count, 1.0);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (now.closed[i] == 0) continue;
+    const double share = now.volumes[i] / before.volumes[i];
+    if (share > kLeastShare && std::isfinite(share)) factors[i] = std::cbrt(1.0 / share);
+  }
+  std::vector<Eigen::RowVector3d> centres(count, Eigen::RowVector3d::Zero());
+  std::vector<double> weights(count, 0.0);
+  for (Index v = 0; v < topology.vertex_count(); ++v) {
+    const Index i = of_vertex[v];
+    if (series.is_kept(v) || series.limit_matrix().row_kind(v) == LimitRow::Fixed) factors[i] = 1.0;
+    centres[i] += series.weight(v) * points.row(v);
+    weights[i] += series.weight(v);
+  }
+  for (Index v = 0; v < topology.vertex_count(); ++v) {
+    const Index i = of_vertex[v];
+    if (factors[i] == 1.0) continue;
+    const Eigen::RowVector3d centre = centres[i] / weights[i];
+    points.row(v) = centre + factors[i] * (points.row(v) - centre);
+  }
+  return static_cast<Index>(std::count_if(factors.begin(), factors.end(), [](double f) { return f != 1.0; }));
+}
+
+}  // namespace batten
