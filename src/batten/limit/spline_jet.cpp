@@ -1,10 +1,5 @@
 #include "batten/limit/spline_jet.h"
 
-#include <Eigen/LU>
-#include <cmath>
-
-#include "batten/limit/tile_weights.h"
-
 namespace batten {
 
 namespace {
@@ -20,34 +15,6 @@ inline CubicJet cubic_jet(double t) {
            kSixth * (t * t * t)},
           {-0.5 * s * s, t * (1.5 * t - 2.0), s * (2.0 - 1.5 * s), 0.5 * t * t},
           {s, 3.0 * t - 2.0, 3.0 * s - 2.0, t}};
-}
-
-constexpr int kDegree = 4;
-constexpr int kTerms = 15;  ///< of a quartic in two variables
-
-/// u^a v^b for a + b <= 4, in the order of the coefficients.
-template <typename Visit>
-void for_each_term(const Visit& visit) {
-  int term = 0;
-  for (int b = 0; b <= kDegree; ++b) {
-    for (int a = 0; a + b <= kDegree; ++a) visit(term++, a, b);
-  }
-}
-
-/// Coefficients of u^a v^b of the twelve basis functions. They are quartics over a triangle, so their values at the
-/// lattice of quarters, which subdivision gives, decide them; multiples of 1/12.
-Eigen::Matrix<double, kTerms, kTrianglePatchSize> box_spline_coefficients() {
-  const Buffer<double> values = triangle_weights(kDegree, TileValue::Limit);
-  Eigen::Matrix<double, kTerms, kTerms> powers;
-  Eigen::Matrix<double, kTerms, kTrianglePatchSize> samples;
-  for_each_term([&](int point, int i, int j) {  // triangle_weights goes through its points as for_each_term does
-    const double u = i / 4.0;
-    const double v = j / 4.0;
-    for_each_term([&](int term, int a, int b) { powers(point, term) = std::pow(u, a) * std::pow(v, b); });
-    for (int k = 0; k < kTrianglePatchSize; ++k) samples(point, k) = values[point * kTrianglePatchSize + k];
-  });
-  Eigen::Matrix<double, kTerms, kTrianglePatchSize> coefficients = powers.fullPivLu().solve(samples);
-  return (coefficients * 12.0).array().round().matrix() / 12.0;
 }
 
 }  // namespace
@@ -67,63 +34,18 @@ void quad_jet_weights(double u, double v, JetWeights& weights) {
   }
 }
 
-namespace {
-
-/// The coefficients of four basis functions each, in rows by the power of v: of u^a v^b at [a][b].
-struct BoxSpline {
-  Double4 coefficients[kDegree + 1][kDegree + 1][3];
-
-  BoxSpline() {
-    const Eigen::Matrix<double, kTerms, kTrianglePatchSize> all = box_spline_coefficients();
-    for_each_term([&](int term, int a, int b) {
-      for (int k = 0; k < kTrianglePatchSize; ++k) coefficients[a][b][k / 4][k % 4] = all(term, k);
-    });
-  }
-};
-
-/// Four basis functions and their derivatives: Horner's rule in v for each power of u, then in u.
-inline void four_functions(const BoxSpline& spline, int four, double u, double v, PatchJet& jet) {
-  Double4 value[kDegree + 1];
-  Double4 first[kDegree];
-  Double4 second[kDegree - 1];
-#pragma GCC unroll 5
-  for (int a = 0; a <= kDegree; ++a) {
-    Double4 p = spline.coefficients[a][kDegree - a][four];
-    Double4 d{};
-    Double4 dd{};
-#pragma GCC unroll 4
-    for (int b = kDegree - a - 1; b >= 0; --b) {
-      dd = v * dd + d;
-      d = v * d + p;
-      p = v * p + spline.coefficients[a][b][four];
-    }
-    value[a] = p;
-    if (a < kDegree) first[a] = d;
-    if (a < kDegree - 1) second[a] = 2.0 * dd;
-  }
-  jet[0] = value[0] + u * (value[1] + u * (value[2] + u * (value[3] + u * value[4])));
-  jet[1] = value[1] + u * (2.0 * value[2] + u * (3.0 * value[3] + u * (4.0 * value[4])));
-  jet[2] = first[0] + u * (first[1] + u * (first[2] + u * first[3]));
-  jet[3] = 2.0 * value[2] + u * (6.0 * value[3] + u * (12.0 * value[4]));
-  jet[4] = first[1] + u * (2.0 * first[2] + u * (3.0 * first[3]));
-  jet[5] = second[0] + u * (second[1] + u * second[2]);
-}
-
-const BoxSpline& box_spline() {
-  static const BoxSpline spline;
-  return spline;
-}
-
-}  // namespace
-
+/// Of four basis functions at a time, as the jet of a patch whose points are the rows of the identity.
 void triangle_jet_weights(double u, double v, JetWeights& weights) {
-  std::array<double, 16>* rows[6] = {&weights.value, &weights.du,  &weights.dv,
-                                     &weights.duu,   &weights.duv, &weights.dvv};
-  PatchJet functions;
-  for (int four = 0; four < 3; ++four) {
-    four_functions(box_spline(), four, u, v, functions);
-    for (int r = 0; r < 6; ++r) {
-      for (int k = 0; k < 4; ++k) (*rows[r])[4 * four + k] = functions[r][k];
+  std::array<double, 16>* parts[6] = {&weights.value, &weights.du,  &weights.dv,
+                                      &weights.duu,   &weights.duv, &weights.dvv};
+  static constexpr std::array<Index, kTrianglePatchSize> kRows{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
+  for (int four = 0; four < kTrianglePatchSize / 4; ++four) {
+    std::array<Double4, kTrianglePatchSize> points{};
+    for (int k = 0; k < 4; ++k) points[4 * four + k][k] = 1.0;
+    PatchJet functions;
+    triangle_jet(u, v, points.data(), kRows.data(), functions);
+    for (int part = 0; part < 6; ++part) {
+      for (int k = 0; k < 4; ++k) (*parts[part])[4 * four + k] = functions[part][k];
     }
   }
 }
@@ -151,24 +73,47 @@ void quad_jet(double u, double v, const Double4* points, const Index* rows, Patc
   jet = total;
 }
 
+/// The box spline's second derivatives are second differences of the points, blended by box splines of lower degree;
+/// the rest follows by integration (de Boor, Hoellig and Riemenschneider 1993, key BHR93).
 void triangle_jet(double u, double v, const Double4* points, const Index* rows, PatchJet& jet) {
-  const BoxSpline& spline = box_spline();
-  PatchJet functions[3];
-  for (int four = 0; four < 3; ++four) four_functions(spline, four, u, v, functions[four]);
-  // Two sums in turn: one would wait for itself.
-  PatchJet even{};
-  PatchJet odd{};
-  for (int four = 0; four < 3; ++four) {
-    for (int k = 0; k < 4; k += 2) {
-      const Double4 first = points[rows[4 * four + k]];
-      const Double4 second = points[rows[4 * four + k + 1]];
-      for (int r = 0; r < 6; ++r) {
-        even[r] += functions[four][r][k] * first;
-        odd[r] += functions[four][r][k + 1] * second;
-      }
-    }
-  }
-  for (int r = 0; r < 6; ++r) jet[r] = even[r] + odd[r];
+  const auto p = [&](int i) { return points[rows[i]]; };
+  const auto bend = [](const Double4& before, const Double4& at, const Double4& after) {
+    return (before + after) - 2.0 * at;
+  };
+  // At (0, 0): along u, along v, along v - u, then how the first two change. Numbers as in kTriangleLattice.
+  const Double4 uu = bend(p(6), p(0), p(1));
+  const Double4 vv = bend(p(3), p(0), p(2));
+  const Double4 diagonal = bend(p(4), p(0), p(8));
+  const Double4 uv = 0.5 * (uu + vv - diagonal);
+  const Double4 uuv = bend(p(8), p(2), p(9)) - uu;
+  const Double4 uvv = bend(p(4), p(1), p(9)) - vv;
+  const Double4 uu_below = bend(p(3), p(4), p(5)) - uu;
+  const Double4 vv_left = bend(p(6), p(8), p(10)) - vv;
+  const Double4 uuu = uu_below + uuv;
+  const Double4 vvv = vv_left + uvv;
+  const Double4 uuuu = bend(p(0), p(1), p(7)) - uu - uuu;
+  const Double4 vvvv = bend(p(0), p(2), p(11)) - vv - vvv;
+  const Double4 along = p(1) - p(6);
+  const Double4 across = p(2) - p(3);
+  const Double4 askew = p(4) - p(8);
+  const Double4 value = p(0) + (1.0 / 12.0) * (uu + vv + diagonal);
+  const Double4 du = (1.0 / 6.0) * (2.0 * along + across + askew);
+  const Double4 dv = (1.0 / 6.0) * (along + 2.0 * across - askew);
+
+  const double u2 = 0.5 * u * u;
+  const double v2 = 0.5 * v * v;
+  const double u3 = u * u2 / 3.0;
+  const double v3 = v * v2 / 3.0;
+  const double product = u * v;
+  jet[3] = (uu + u * uuu) + (v * uuv + (u * (u + v)) * uuuu);
+  jet[5] = (vv + v * vvv) + (u * uvv + (v * (u + v)) * vvvv);
+  jet[4] = (uv + u * uuv) + (v * uvv + (u2 * uuuu + v2 * vvvv));
+  jet[1] =
+      ((du + u * uu) + (v * uv + u2 * uuu)) + ((product * uuv + v2 * uvv) + ((2.0 * u3 + v * u2) * uuuu + v3 * vvvv));
+  jet[2] =
+      ((dv + v * vv) + (u * uv + v2 * vvv)) + ((product * uvv + u2 * uuv) + ((2.0 * v3 + u * v2) * vvvv + u3 * uuuu));
+  jet[0] = ((value + u * du) + (v * dv + u2 * uu)) + ((v2 * vv + product * uv) + (u3 * uuu + v3 * vvv)) +
+           ((v * u2) * uuv + (u * v2) * uvv) + ((u3 * (0.5 * u + v)) * uuuu + (v3 * (0.5 * v + u)) * vvvv);
 }
 
 }  // namespace batten
