@@ -25,6 +25,8 @@ struct CommonArguments {
   std::optional<CreaseMethod> crease_method;
   std::optional<TriangleRule> triangle_rule;
   double alpha = 0.0;
+  std::optional<double> tension;
+  std::optional<ButterflyBoundary> butterfly_boundary;
   bool triangulate = false;
   bool repair = false;
   bool quiet = false;

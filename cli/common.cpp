@@ -124,6 +124,8 @@ Scheme scheme_for(const CommonArguments& arguments, const Mesh& mesh) {
   scheme.crease_method = arguments.crease_method.value_or(scheme.crease_method);
   scheme.triangle_rule = arguments.triangle_rule.value_or(scheme.triangle_rule);
   scheme.alpha = arguments.alpha;
+  scheme.tension = arguments.tension;
+  scheme.butterfly_boundary = arguments.butterfly_boundary.value_or(scheme.butterfly_boundary);
   return scheme;
 }
 
@@ -176,7 +178,7 @@ std::string mesh_text(const Topology& topology) {
 }
 
 std::string scheme_text(const Scheme& scheme) {
-  std::string text = scheme.kind == SchemeKind::Loop ? "Loop" : "Catmull-Clark";
+  std::string text = scheme_name(scheme.kind);
   switch (scheme.boundary) {
     case BoundaryRule::None:
       text += ", boundary none";
@@ -190,17 +192,28 @@ std::string scheme_text(const Scheme& scheme) {
   }
   if (scheme.crease_method == CreaseMethod::Chaikin) text += ", Chaikin creases";
   if (scheme.triangle_rule == TriangleRule::Smooth) text += ", smooth triangles";
+  if (is_interpolating(scheme.kind)) {
+    if (scheme.butterfly_boundary == ButterflyBoundary::Reflect) text += ", by reflection";
+    if (scheme.tension) text += fmt::format(", tension {:g}", *scheme.tension);
+  }
   if (scheme.alpha > 0.0) text += fmt::format(", alpha {:g} in the first step", scheme.alpha);
   return text;
 }
 
 nlohmann::ordered_json scheme_json(const Scheme& scheme) {
+  static constexpr const char* kKinds[] = {"catmull-clark", "loop", "butterfly", "modified-butterfly"};
   static constexpr const char* kBoundaries[] = {"none", "edge-and-corner", "edge-only"};
-  return {{"kind", scheme.kind == SchemeKind::Loop ? "loop" : "catmull-clark"},
-          {"boundary", kBoundaries[static_cast<int>(scheme.boundary)]},
-          {"creases", scheme.crease_method == CreaseMethod::Chaikin ? "chaikin" : "uniform"},
-          {"triangles", scheme.triangle_rule == TriangleRule::Smooth ? "smooth" : "catmark"},
-          {"alpha", scheme.alpha}};
+  nlohmann::ordered_json json{{"kind", kKinds[static_cast<int>(scheme.kind)]},
+                              {"boundary", kBoundaries[static_cast<int>(scheme.boundary)]},
+                              {"creases", scheme.crease_method == CreaseMethod::Chaikin ? "chaikin" : "uniform"},
+                              {"triangles", scheme.triangle_rule == TriangleRule::Smooth ? "smooth" : "catmark"},
+                              {"alpha", scheme.alpha}};
+  if (is_interpolating(scheme.kind)) {
+    const bool reflect = scheme.butterfly_boundary == ButterflyBoundary::Reflect;
+    json["butterfly_boundary"] = reflect ? "reflect" : "crease-rules";
+    if (scheme.tension) json["tension"] = *scheme.tension;
+  }
+  return json;
 }
 
 }  // namespace batten::cli

@@ -18,7 +18,12 @@ namespace {
 template <typename Enum>
 using Names = std::map<std::string, Enum>;
 
-const Names<SchemeKind> kSchemes{{"catmull-clark", SchemeKind::CatmullClark}, {"loop", SchemeKind::Loop}};
+const Names<SchemeKind> kSchemes{{"catmull-clark", SchemeKind::CatmullClark},
+                                 {"loop", SchemeKind::Loop},
+                                 {"butterfly", SchemeKind::Butterfly},
+                                 {"modified-butterfly", SchemeKind::ModifiedButterfly}};
+const Names<ButterflyBoundary> kButterflyBoundaries{{"crease-rules", ButterflyBoundary::CreaseRules},
+                                                    {"reflect", ButterflyBoundary::Reflect}};
 const Names<BoundaryRule> kBoundaries{{"none", BoundaryRule::None},
                                       {"edge-only", BoundaryRule::EdgeOnly},
                                       {"edge-and-corner", BoundaryRule::EdgeAndCorner}};
@@ -112,6 +117,12 @@ void add_surface(CLI::App& verb, CommonArguments& common) {
   verb.add_option("--alpha", common.alpha, "Lai and Cheng's alpha in the first step (Catmull-Clark)")
       ->check(CLI::Range(0.0, 1.0))
       ->option_text("0..1");
+  verb.add_option("--tension", common.tension,
+                  "w of Butterfly's eight points (1/16 if not given) or of Modified Butterfly's ten (0)")
+      ->check(CLI::Range(-1.0, 1.0))
+      ->option_text("W");
+  add_choice(verb, "--butterfly-boundary", common.butterfly_boundary, kButterflyBoundaries,
+             "how Butterfly makes points beside boundaries and creases; reflect is the paper's");
   verb.add_flag("--triangulate", common.triangulate, "split all faces into triangles first");
 }
 

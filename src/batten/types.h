@@ -20,8 +20,27 @@ using ConstValuesRef = const Eigen::Ref<const Values, 0, Eigen::OuterStride<>>&;
 /// Likewise, to be written to.
 using ValuesRef = Eigen::Ref<Values, 0, Eigen::OuterStride<>>;
 
-/// Catmull-Clark takes faces of any size, Loop triangles.
-enum class SchemeKind { CatmullClark, Loop };
+/// Catmull-Clark takes faces of any size, the others triangles. The surfaces of the first two only follow their control
+/// points; those of the other two pass through them.
+enum class SchemeKind {
+  CatmullClark,
+  Loop,
+  Butterfly,         ///< Dyn, Gregory and Levin's, the same stencil everywhere: smooth at valences 4 to 7 only
+  ModifiedButterfly  ///< Zorin, Schroeder and Sweldens': smooth at every valence
+};
+
+/// True where the limit surface passes through the control points: the two Butterflies. Their semi-sharp creases last
+/// for as many levels as their sharpness says, rounded up, under either CreaseMethod.
+constexpr bool is_interpolating(SchemeKind kind) {
+  return kind == SchemeKind::Butterfly || kind == SchemeKind::ModifiedButterfly;
+}
+
+/// How the Butterfly schemes make points beside a boundary or a crease.
+enum class ButterflyBoundary {
+  CreaseRules,  ///< rules of their own, exact for quadratic polynomials (at extraordinary boundary vertices linear
+                ///< ones)
+  Reflect       ///< the paper's: points beyond the boundary by reflection; exact for linear polynomials
+};
 
 /// What the surface does at a boundary (OpenSubdiv's names).
 enum class BoundaryRule {

@@ -1,4 +1,5 @@
 /// The tool on limit surfaces: adaptive tessellation, distances.
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -36,6 +37,39 @@ const std::string kSharpCube =
     "t crease 2/1/0 0 1 10\nt crease 2/1/0 1 2 10\nt crease 2/1/0 2 3 10\nt crease 2/1/0 3 0 10\n"
     "t crease 2/1/0 4 5 10\nt crease 2/1/0 5 6 10\nt crease 2/1/0 6 7 10\nt crease 2/1/0 7 4 10\n"
     "t crease 2/1/0 0 4 10\nt crease 2/1/0 1 5 10\nt crease 2/1/0 2 6 10\nt crease 2/1/0 3 7 10\n";
+
+TEST_F(Tool, ModifiedButterflyKeepsTheVerticesAndTellsNormals) {
+  write("octahedron.obj",
+        "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\nf 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\n"
+        "f 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n");
+  const Outcome result =
+      run("subdivide octahedron.obj --scheme modified-butterfly --levels 3 --limit -o fine.ply --report r.json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("Modified Butterfly"), std::string::npos) << result.out;
+  const Mesh coarse = read_mesh(path("octahedron.obj"));
+  const Mesh fine = read_mesh(path("fine.ply"));
+  EXPECT_EQ(fine.face_count(), 8 * 64);
+  EXPECT_LT((fine.points.topRows(6) - coarse.points).cwiseAbs().maxCoeff(), 1e-7);
+  const auto normals = std::find_if(fine.attributes.begin(), fine.attributes.end(),
+                                    [](const Attribute& attribute) { return attribute.name == "normal"; });
+  ASSERT_NE(normals, fine.attributes.end());
+  EXPECT_LT((normals->values.topRows(6) - coarse.points).cwiseAbs().maxCoeff(), 1e-6);  // outward
+  const auto report = nlohmann::json::parse(text_of(path("r.json")));
+  EXPECT_EQ(report.at("scheme").at("kind"), "modified-butterfly");
+}
+
+TEST_F(Tool, ButterflyAsksForTriangles) {
+  const Outcome quads = run("subdivide " + kModels + "tripod.obj --scheme butterfly -o fine.obj");
+  EXPECT_EQ(quads.status, 1);
+  EXPECT_NE(quads.err.find("--triangulate"), std::string::npos) << quads.err;
+  const Outcome split = run("subdivide " + kModels + "tripod.obj --scheme butterfly --triangulate -o fine.usda");
+  EXPECT_EQ(split.status, 0) << split.err;
+  EXPECT_NE(text_of(path("fine.usda")).find("subdivisionScheme = \"none\""), std::string::npos);
+  const Outcome curved =
+      run("render " + kModels + "tripod.obj --scheme butterfly --triangulate --color mean -o picture.png");
+  EXPECT_EQ(curved.status, 1);
+  EXPECT_NE(curved.err.find("no curvature"), std::string::npos) << curved.err;
+}
 
 TEST_F(Tool, MeasuresDistancesOutsideAndInside) {
   write("cube.obj", kSharpCube);

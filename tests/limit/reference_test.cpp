@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "batten/limit/limit_matrix.h"
+#include "batten/refine/refinement.h"
 #include "support/shapes.h"
 
 namespace batten {
@@ -104,6 +107,46 @@ TEST_P(Reference, LimitNormalsAreThoseOfTheFile) {
         EXPECT_NEAR(normals(v, c), expected[c].get<double>(), tolerance(entry(), scheme + "_normal"))
             << scheme << " vertex " << v;
       }
+    }
+  }
+}
+
+Scheme modified_butterfly() {
+  Scheme scheme;
+  scheme.kind = SchemeKind::ModifiedButterfly;
+  return scheme;
+}
+
+class ButterflyReference : public Reference {};
+INSTANTIATE_TEST_SUITE_P(Limit, ButterflyReference,
+                         ::testing::Values("tetra", "octa", "icosa", "tri_torus4x5", "bipyramid7"));
+
+TEST_P(ButterflyReference, EdgePointsAreThoseOfTheFile) {
+  const Mesh mesh = mesh_of(entry());
+  const Topology topology(mesh);
+  const Values refined = Refinement(topology, modified_butterfly()).apply(mesh.points);
+  std::map<std::pair<Index, Index>, Index> edges;
+  for (Index e = 0; e < topology.edge_count(); ++e) {
+    const Index h = topology.edge_half_edge(e);
+    edges[std::minmax(topology.origin(h), topology.destination(h))] = e;
+  }
+  const json& points = entry().at("butterfly_level1_edge_points");
+  EXPECT_EQ(points.size(), edges.size());
+  for (const json& point : points) {
+    const Index a = point.at("edge")[0];
+    const Index b = point.at("edge")[1];
+    const Index row = topology.vertex_count() + edges.at(std::minmax(a, b));
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(refined(row, c), point.at("p")[c].get<double>(), 1e-14) << a << " " << b;
+  }
+}
+
+TEST_P(ButterflyReference, NormalsAreThoseOfTheFile) {
+  const Mesh mesh = mesh_of(entry());
+  const Values normals = limit_normals(Topology(mesh), modified_butterfly(), mesh.points).vertices;
+  const json& expected = entry().at("butterfly_normal_from_level2");
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    for (int c = 0; c < 3 && !expected[v].is_null(); ++c) {
+      EXPECT_NEAR(normals(v, c), expected[v][c].get<double>(), 1e-13) << "vertex " << v;
     }
   }
 }

@@ -13,8 +13,10 @@ namespace batten::io {
 
 namespace {
 
-/// Normals, and no word on a subdivision surface: these are polygons, to be drawn as they are.
+/// Normals, and no word on a subdivision surface: these are polygons, to be drawn as they are. So are the Butterflies'
+/// meshes, whose schemes USD does not know.
 bool is_polygonal(const Mesh& mesh) {
+  if (mesh.scheme && is_interpolating(*mesh.scheme)) return true;
   const bool has_word = mesh.scheme || mesh.boundary || mesh.crease_method || mesh.triangle_rule ||
                         !mesh.creases.empty() || !mesh.corners.empty() || !mesh.holes.empty();
   return !has_word && corner_list(mesh, "normal").attribute != nullptr;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "batten/error.h"
+#include "batten/limit/butterfly_normals.h"
 #include "batten/limit/ring_limit.h"
 #include "batten/parallel/parallel.h"
 #include "batten/refine/child_topology.h"
@@ -58,8 +59,8 @@ LimitMatrix::LimitMatrix(const Topology& topology, const Scheme& scheme, LimitOp
 void LimitMatrix::classify(Index vertex, VertexRing& ring) {
   face_counts_[vertex] = static_cast<std::uint8_t>(std::min<Index>(255, topology_.vertex_face_count(vertex)));
   LimitRow row = LimitRow::Smooth;
-  const bool plain_triangles = scheme_.kind == SchemeKind::Loop || scheme_.triangle_rule == TriangleRule::Catmark;
-  if (topology_.is_isolated(vertex)) {
+  const bool plain_triangles = scheme_.kind != SchemeKind::CatmullClark || scheme_.triangle_rule == TriangleRule::Catmark;
+  if (topology_.is_isolated(vertex) || is_interpolating(scheme_.kind)) {
     row = LimitRow::Fixed;
   } else if (!is_untagged(topology_) || topology_.is_boundary_vertex(vertex) || !plain_triangles) {
     gather_ring(topology_, vertex, ring);
@@ -302,6 +303,7 @@ LimitNormals limit_normals(const Topology& topology, const Scheme& scheme, Const
   require_vertex_rows(topology, control);
   require_triangles(topology, scheme);
   if (control.cols() != 3) throw Error(ErrorCode::BadShape, "normals need three columns");
+  if (is_interpolating(scheme.kind)) return butterfly_normals(topology, scheme, control, progress);
   LimitNormals normals{Values::Zero(topology.vertex_count(), 3), Values::Zero(topology.half_edge_count(), 3)};
   const NormalWriter writer(topology, scheme, control, masks, normals);
   const auto write_block = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {

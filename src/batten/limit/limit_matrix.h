@@ -3,7 +3,8 @@
 /// The limit matrix A is V-by-V; row i takes control points P to the limit position of vertex i: A P. Rows by kind of
 /// vertex (MATH 1.1, 2.1, 3, 4.2): smooth [(n(n-1) + n alpha) v + (2 - alpha) sum e + 4 sum c]/(n(n+5)) on centroids c
 /// (Catmull-Clark) or (w v + sum e)/(w + n) (Loop); crease and boundary (a + 4 v + b)/6; corner and isolated v; a
-/// dart's row is its ring's left eigenvector; where tags still fade, the row of the surface once they have.
+/// dart's row is its ring's left eigenvector; where tags still fade, the row of the surface once they have. Under the
+/// Butterflies A is the identity.
 #pragma once
 #include <Eigen/SparseCore>
 #include <vector>

@@ -153,6 +153,7 @@ void pass_tags_on(const Topology& parent, const Scheme& scheme, TopologyTables& 
     }
   }
   if (parent.has_creases()) {
+    const CreaseMethod method = is_interpolating(scheme.kind) ? CreaseMethod::Uniform : scheme.crease_method;
     child.edge_sharpness.assign(child.edge_half_edges.size(), 0.0F);
     parallel_for(parent.vertex_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
       VertexRing ring;
@@ -164,7 +165,7 @@ void pass_tags_on(const Topology& parent, const Scheme& scheme, TopologyTables& 
           const Index e = ring.edges[i];
           const bool at_origin = parent.origin(parent.edge_half_edge(e)) == v;
           child.edge_sharpness[2 * e + (at_origin ? 0 : 1)] =
-              subdivided_sharpness(ring.sharpness[i], around, scheme.crease_method);
+              subdivided_sharpness(ring.sharpness[i], around, method);
         }
       }
     });
@@ -183,10 +184,12 @@ void pass_tags_on(const Topology& parent, const Scheme& scheme, TopologyTables& 
 }  // namespace
 
 void require_triangles(const Topology& topology, const Scheme& scheme) {
-  if (scheme.kind != SchemeKind::Loop || topology.uniform_face_size() == 3 || topology.face_count() == 0) return;
+  const bool any_face = scheme.kind == SchemeKind::CatmullClark;
+  if (any_face || topology.uniform_face_size() == 3 || topology.face_count() == 0) return;
   Index f = 0;
   while (topology.face_size(f) == 3) ++f;
-  throw Error(ErrorCode::NotTriangles, "Loop subdivision needs triangles, but face " + std::to_string(f) + " has " +
+  throw Error(ErrorCode::NotTriangles, std::string(scheme_name(scheme.kind)) +
+                                           " subdivision needs triangles, but face " + std::to_string(f) + " has " +
                                            std::to_string(topology.face_size(f)) +
                                            " corners; triangulate (--triangulate) or take Catmull-Clark");
 }

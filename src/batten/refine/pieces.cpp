@@ -7,6 +7,7 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "batten/error.h"
 #include "batten/parallel/parallel.h"
 
 namespace batten {
@@ -52,8 +53,16 @@ Buffer<Index> with_surroundings(const Topology& topology, const Scheme& scheme, 
 
 }  // namespace
 
+void require_spline(const Scheme& scheme) {
+  if (!is_interpolating(scheme.kind)) return;
+  throw Error(ErrorCode::BadArgument, std::string(scheme_name(scheme.kind)) +
+                                          " surfaces are no splines: there is no closed form between their vertices, "
+                                          "and no curvature; refine them, or take Loop");
+}
+
 Pieces::Pieces(const Topology& base, const Scheme& scheme, int levels, Rest rest)
     : base_(base), scheme_(scheme), levels_(levels), rest_(rest) {
+  require_spline(scheme);
   Buffer<Index> faces(static_cast<std::size_t>(base.face_count()));
   std::iota(faces.begin(), faces.end(), 0);
   build(std::move(faces), true);
@@ -61,6 +70,7 @@ Pieces::Pieces(const Topology& base, const Scheme& scheme, int levels, Rest rest
 
 Pieces::Pieces(const Topology& base, const Scheme& scheme, int levels, Index face)
     : base_(base), scheme_(scheme), levels_(levels), rest_(Rest::Cells) {
+  require_spline(scheme);
   build({face}, false);
 }
 

@@ -105,6 +105,9 @@ class Pieces {
   std::vector<std::unique_ptr<Region>> regions_;
 };
 
+/// Throws Error(BadArgument) for the Butterflies, whose surfaces have no closed form between the vertices.
+void require_spline(const Scheme& scheme);
+
 /// True where pieces need the first refinement for a base: Catmull-Clark on other faces than quads, or with alpha.
 bool needs_first_step(const Topology& topology, const Scheme& scheme);
 

@@ -82,7 +82,7 @@ class CornerStep {
 
 /// The children of the faces before `face` come before the children of `face`.
 Index first_child(const Topology& topology, SchemeKind kind, Index face) {
-  return kind == SchemeKind::Loop ? 4 * face : topology.tables().face_offsets[face];
+  return kind == SchemeKind::CatmullClark ? topology.tables().face_offsets[face] : 4 * face;
 }
 
 /// The parts of one level, of equal length; each level takes four times as long as the one before.

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "batten/parallel/parallel.h"
+#include "batten/refine/butterfly_rules.h"
 #include "batten/refine/vertex_blend.h"
 #include "batten/scheme/masks.h"
 
@@ -252,6 +253,7 @@ Index refined_vertex_count(const Topology& topology, SchemeKind kind) {
 template <typename Scalar>
 void refine_values(const Topology& topology, const Scheme& scheme, std::span<const double> vertex_alpha,
                    ConstValuesRef values, Scalar* out, const Progress& progress) {
+  if (is_interpolating(scheme.kind)) return refine_butterfly_values(topology, scheme, values, out, progress);
   const VertexMasks masks(scheme, vertex_alpha);
   switch (topology.uniform_face_size()) {
     case 3:

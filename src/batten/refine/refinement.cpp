@@ -27,6 +27,9 @@ Refinement::Refinement(const Topology& topology, const Scheme& scheme, std::vect
       vertex_alpha_(std::move(vertex_alpha)),
       child_(child_topology(topology, scheme, progress)) {
   check_alpha(scheme.alpha);
+  if (!std::isfinite(scheme.tension.value_or(0.0))) {
+    throw Error(ErrorCode::BadArgument, "tension must be finite, but is " + std::to_string(*scheme.tension));
+  }
   for (const double alpha : vertex_alpha_) check_alpha(alpha);
   if (!vertex_alpha_.empty() && static_cast<Index>(vertex_alpha_.size()) != topology.vertex_count()) {
     throw Error(ErrorCode::BadShape, "vertex_alpha must have one entry a vertex");

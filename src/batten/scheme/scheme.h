@@ -1,5 +1,7 @@
 /// \file Which surface a control mesh stands for.
 #pragma once
+#include <optional>
+
 #include "batten/types.h"
 
 namespace batten {
@@ -12,6 +14,10 @@ struct Scheme {
   TriangleRule triangle_rule = TriangleRule::Catmark;  ///< Catmull-Clark only
   /// Lai and Cheng's alpha in [0, 1], in the first refinement step only (Catmull-Clark only); 0 is the ordinary scheme.
   double alpha = 0.0;
+  /// Butterfly: the weight w of the eight-point stencil (1/2, 2 w, -w), 1/16 if not given. Modified Butterfly: the w of
+  /// the ten-point stencil (1/2 - w, 1/8 + 2 w, -1/16 - w, w), 0 if not given.
+  std::optional<double> tension = {};
+  ButterflyBoundary butterfly_boundary = ButterflyBoundary::CreaseRules;  ///< the two Butterflies only
 
   /// The scheme of every level after the first.
   Scheme after_first_step() const {
@@ -20,5 +26,20 @@ struct Scheme {
     return scheme;
   }
 };
+
+/// "Modified Butterfly", for messages.
+constexpr const char* scheme_name(SchemeKind kind) {
+  switch (kind) {
+    case SchemeKind::CatmullClark:
+      return "Catmull-Clark";
+    case SchemeKind::Loop:
+      return "Loop";
+    case SchemeKind::Butterfly:
+      return "Butterfly";
+    case SchemeKind::ModifiedButterfly:
+      break;
+  }
+  return "Modified Butterfly";
+}
 
 }  // namespace batten

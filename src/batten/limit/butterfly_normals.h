@@ -1,0 +1,14 @@
+/// \file Limit normals of the Butterflies at the vertices of a mesh of any level.
+#pragma once
+#include "batten/limit/limit_matrix.h"
+
+namespace batten {
+
+/// Exact at every vertex where the scheme has a tangent plane, whatever its neighbours: the masks act on the two rings
+/// after one more step, made for each vertex alone. Where there is none: at corners the average of the cone that their
+/// edges' tangents make; in a single triangle that a curve passes by, the plane of the curve at this level. As
+/// limit_normals, which calls this.
+LimitNormals butterfly_normals(const Topology& topology, const Scheme& scheme, ConstValuesRef points,
+                               const Progress& progress = {});
+
+}  // namespace batten

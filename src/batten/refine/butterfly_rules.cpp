@@ -1,0 +1,127 @@
+#include "batten/refine/butterfly_rules.h"
+
+#include <algorithm>
+
+#include "batten/parallel/parallel.h"
+#include "batten/refine/vertex_blend.h"
+
+namespace batten {
+
+namespace {
+
+constexpr int kTabulatedValences = 64;
+constexpr int kTabulatedTriangles = 16;
+
+ButterflyVertex kind_of(const Topology& topology, const Scheme& scheme, Index vertex) {
+  if (topology.is_isolated(vertex) || is_sharp(vertex_sharpness(topology, scheme, vertex))) {
+    return ButterflyVertex::Corner;
+  }
+  int edges = 0;
+  int sharp = topology.is_boundary_vertex(vertex) ? 1 : 0;  // its last edge is no half-edge's first
+  topology.for_each_outgoing(vertex, [&](Index h) {
+    ++edges;
+    sharp += is_sharp(topology.edge_sharpness(topology.edge(h))) ? 1 : 0;
+  });
+  if (sharp > 2) return ButterflyVertex::Corner;
+  if (sharp == 2) return ButterflyVertex::Curve;
+  if (sharp == 1) return ButterflyVertex::Dart;
+  return edges == 6 ? ButterflyVertex::Regular : ButterflyVertex::Extraordinary;
+}
+
+/// The rows of a stencil summed up, a few columns at a time.
+template <typename Scalar>
+void sum_rows(const ButterflyPoint& point, ConstValuesRef values, Scalar* out) {
+  constexpr std::ptrdiff_t kColumns = 3;
+  const std::ptrdiff_t k = values.cols();
+  const std::ptrdiff_t stride = values.outerStride();
+  for (std::ptrdiff_t c = 0; c < k; c += kColumns) {
+    const std::ptrdiff_t width = std::min(kColumns, k - c);
+    double sum[kColumns] = {};
+    for (std::size_t i = 0; i < point.vertices.size(); ++i) {
+      const double* row = values.data() + point.vertices[i] * stride + c;
+      for (std::ptrdiff_t j = 0; j < width; ++j) sum[j] += point.weights[i] * row[j];
+    }
+    for (std::ptrdiff_t j = 0; j < width; ++j) out[c + j] = static_cast<Scalar>(sum[j]);
+  }
+}
+
+}  // namespace
+
+Buffer<ButterflyVertex> butterfly_vertices(const Topology& topology, const Scheme& scheme) {
+  Buffer<ButterflyVertex> kinds(static_cast<std::size_t>(topology.vertex_count()));
+  parallel_for(topology.vertex_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (auto v = static_cast<Index>(begin); v < end; ++v) kinds[v] = kind_of(topology, scheme, v);
+  });
+  return kinds;
+}
+
+ButterflyMasks::ButterflyMasks(const Scheme& scheme)
+    : modified_(scheme.kind == SchemeKind::ModifiedButterfly),
+      boundary_(scheme.butterfly_boundary),
+      stencil_(butterfly_mask(scheme)),
+      curve_end_(curve_end_mask(scheme.butterfly_boundary)),
+      extraordinary_(2),
+      crease_(2) {
+  for (int n = 2; n < kTabulatedValences; ++n) extraordinary_.push_back(extraordinary_mask(n));
+  for (int k = 2; k < kTabulatedTriangles; ++k) {
+    crease_.emplace_back(1);
+    for (int i = 1; i < k; ++i) crease_.back().push_back(crease_vertex_mask(k, i));
+  }
+}
+
+const RingMask& ButterflyMasks::extraordinary(int valence, RingMask& scratch) const {
+  if (valence < kTabulatedValences) return extraordinary_[valence];
+  return scratch = extraordinary_mask(valence);
+}
+
+const RingMask& ButterflyMasks::crease_vertex(int triangles, int edge, RingMask& scratch) const {
+  if (triangles < kTabulatedTriangles) return crease_[triangles][edge];
+  return scratch = crease_vertex_mask(triangles, edge);
+}
+
+ButterflyPoint butterfly_point(const Topology& topology, const Buffer<ButterflyVertex>& kinds,
+                               const ButterflyMasks& masks, Index edge) {
+  const TopologyWalk walk(topology, kinds);
+  ButterflyPoint point;
+  ButterflyRules(walk, masks).visit(topology.edge_half_edge(edge), [&](Index vertex, double weight) {
+    point.vertices.push_back(vertex);
+    point.weights.push_back(weight);
+  });
+  return point;
+}
+
+template <typename Scalar>
+void refine_butterfly_values(const Topology& topology, const Scheme& scheme, ConstValuesRef values, Scalar* out,
+                             const Progress& progress) {
+  const Buffer<ButterflyVertex> kinds = butterfly_vertices(topology, scheme);
+  const ButterflyMasks masks(scheme);
+  const TopologyWalk walk(topology, kinds);
+  const ButterflyRules rules(walk, masks);
+  const std::ptrdiff_t k = values.cols();
+  const std::ptrdiff_t kept = topology.vertex_count();
+  parallel_for(kept, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (std::ptrdiff_t v = begin; v < end; ++v) {
+      for (std::ptrdiff_t c = 0; c < k; ++c) out[v * k + c] = static_cast<Scalar>(values(v, c));
+    }
+  });
+  parallel_for(
+      topology.edge_count(),
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        ButterflyPoint point;
+        for (auto e = static_cast<Index>(begin); e < end; ++e) {
+          point.vertices.clear();
+          point.weights.clear();
+          rules.visit(topology.edge_half_edge(e), [&](Index vertex, double weight) {
+            point.vertices.push_back(vertex);
+            point.weights.push_back(weight);
+          });
+          sum_rows(point, values, out + (kept + e) * k);
+        }
+      },
+      kDefaultBlock, progress);
+}
+
+template void refine_butterfly_values(const Topology&, const Scheme&, ConstValuesRef, float*, const Progress&);
+template void refine_butterfly_values(const Topology&, const Scheme&, ConstValuesRef, double*, const Progress&);
+
+}  // namespace batten

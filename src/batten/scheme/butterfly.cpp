@@ -1,0 +1,99 @@
+#include "batten/scheme/butterfly.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace batten {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+RingMask zero_ring(int edges) {
+  RingMask mask;
+  mask.edges.resize(static_cast<std::size_t>(edges), 0.0);
+  return mask;
+}
+
+}  // namespace
+
+ButterflyMask butterfly_mask(const Scheme& scheme) {
+  if (scheme.kind == SchemeKind::Butterfly) {
+    const double w = scheme.tension.value_or(1.0 / 16.0);
+    return {0.5, 2.0 * w, -w, 0.0};
+  }
+  const double w = scheme.tension.value_or(0.0);
+  return {0.5 - w, 0.125 + 2.0 * w, -0.0625 - w, w};
+}
+
+CurveEndMask curve_end_mask(ButterflyBoundary boundary) {
+  if (boundary == ButterflyBoundary::Reflect) return {7.0 / 16.0, 10.0 / 16.0, -1.0 / 16.0};
+  return {6.0 / 16.0, 12.0 / 16.0, -2.0 / 16.0};
+}
+
+RingMask extraordinary_mask(int valence) {
+  RingMask mask = zero_ring(valence);
+  mask.vertex = 0.75;
+  switch (valence) {
+    case 2:
+      mask.vertex = 0.5;
+      mask.edges = {0.5, 0.0};
+      return mask;
+    case 3:
+      mask.edges = {5.0 / 12.0, -1.0 / 12.0, -1.0 / 12.0};
+      return mask;
+    case 4:
+      mask.edges = {3.0 / 8.0, 0.0, -1.0 / 8.0, 0.0};
+      return mask;
+    default:
+      break;
+  }
+  const double theta = 2.0 * kPi / valence;
+  for (int j = 0; j < valence; ++j) {
+    mask.edges[j] = (0.25 + std::cos(j * theta) + 0.5 * std::cos(2 * j * theta)) / valence;
+  }
+  return mask;
+}
+
+RingMask crease_vertex_mask(int triangles, int edge) {
+  const int k = triangles;
+  RingMask mask = zero_ring(k + 1);
+  if (k == 2) {  // the general formula's limit
+    mask.vertex = 0.5;
+    mask.edges[1] = 0.5;
+    return mask;
+  }
+  const double theta = kPi / k;
+  const double sine = std::sin(edge * theta);
+  const double sine2 = std::sin(2 * edge * theta);
+  // sin/(1 - cos) and cos - cos 2 without cancellation, for many triangles.
+  mask.vertex = 1.0 - sine / (k * std::tan(0.5 * theta));
+  const double difference = 2.0 * std::sin(1.5 * theta) * std::sin(0.5 * theta);
+  const double end = 0.25 * std::cos(edge * theta) - std::sin(2 * theta) * sine2 / (4.0 * k * difference);
+  mask.edges.front() = end;
+  mask.edges.back() = -end;
+  for (int j = 1; j < k; ++j) {
+    mask.edges[j] = (sine * std::sin(j * theta) + 0.5 * sine2 * std::sin(2 * j * theta)) / k;
+  }
+  return mask;
+}
+
+TangentMasks extraordinary_tangents(int valence) {
+  TangentMasks masks{zero_ring(valence), zero_ring(valence)};
+  const double theta = 2.0 * kPi / valence;
+  for (int j = 0; j < valence; ++j) {
+    masks.first.edges[j] = std::cos(j * theta);
+    masks.second.edges[j] = std::sin(j * theta);
+  }
+  return masks;
+}
+
+RingMask crease_vertex_cross_tangent(int triangles) {
+  RingMask mask = zero_ring(triangles + 1);
+  const double theta = kPi / triangles;
+  for (int i = 1; i < triangles; ++i) mask.edges[i] = std::sin(i * theta);
+  mask.vertex = -1.0 / std::tan(0.5 * theta);
+  return mask;
+}
+
+}  // namespace batten
