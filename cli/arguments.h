@@ -5,6 +5,7 @@
 #include <string>
 
 #include "batten/expand/denoise.h"
+#include "batten/expand/sharpen.h"
 #include "batten/expand/texture.h"
 #include "batten/interpolate/interpolator.h"
 #include "batten/limit/adaptive.h"
@@ -124,6 +125,23 @@ struct DenoiseArguments {
   std::optional<double> strength;  ///< in edge lengths, instead of passes
 };
 
+struct SharpenArguments {
+  CommonArguments common;
+  PictureArguments picture;
+  SharpenOptions options;
+};
+
+struct BandsArguments {
+  CommonArguments common;
+  PictureArguments picture;
+  SeriesMatrix matrix = SeriesMatrix::Limit;
+  int count = 6;
+  std::vector<double> gains;  ///< one a band, finest first; empty: all 1
+  bool keep_boundary = false;
+  bool displacements = false;  ///< every band as an attribute of the output
+  std::string plot;
+};
+
 struct RepairArguments {
   CommonArguments common;
   RepairOptions options;
@@ -140,5 +158,7 @@ int run_render(const RenderArguments& arguments);
 int run_texture(const TextureArguments& arguments);
 int run_distance(const DistanceArguments& arguments);
 int run_denoise(const DenoiseArguments& arguments);
+int run_sharpen(const SharpenArguments& arguments);
+int run_bands(const BandsArguments& arguments);
 
 }  // namespace batten::cli

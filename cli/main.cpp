@@ -197,6 +197,12 @@ void add_series(CLI::App& verb, SeriesMatrix& matrix) {
              "limit: of the scheme, by valence, the faster; cotangent: by the shape, however it is meshed");
 }
 
+void add_color_moved(CLI::App& verb, PictureArguments& picture) {
+  verb.add_flag_callback(
+      "--color-moved", [&picture] { picture.coloring = Coloring::Moved; },
+      "colour the picture by how far each vertex was moved");
+}
+
 void add_denoise(CLI::App& app, DenoiseArguments& arguments, int& status) {
   CLI::App& verb = *app.add_subcommand("denoise", "smooth noise away and leave the shape");
   add_input(verb, arguments.common);
@@ -232,13 +238,66 @@ void add_denoise(CLI::App& app, DenoiseArguments& arguments, int& status) {
       ->check(CLI::Range(1.0, 179.0))
       ->option_text("DEGREES");
   add_picture(verb, arguments.picture);
-  verb.add_flag_callback(
-      "--color-moved", [&] { arguments.picture.coloring = Coloring::Moved; },
-      "colour the picture by how far each vertex was moved");
+  add_color_moved(verb, arguments.picture);
   verb.callback([&] { status = run_denoise(arguments); });
 }
 
+void add_sharpen(CLI::App& app, SharpenArguments& arguments, int& status) {
+  CLI::App& verb = *app.add_subcommand("sharpen", "make a mesh's detail stronger");
+  add_input(verb, arguments.common);
+  add_output(verb, arguments.common);
+  add_surface(verb, arguments.common);
+  SharpenOptions& options = arguments.options;
+  verb.add_option("--amount", options.amount, "of the detail that a pass adds")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  verb.add_option("--passes", options.passes, "how often")->check(CLI::Range(0, 1000))->capture_default_str();
+  verb.add_option("-m", options.m, "first term that is added: the larger, the finer the detail that grows")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  verb.add_option("-n", options.n, "last term that is added, -m or more")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  verb.add_option("--most-growth", options.most_growth,
+                  "no detail becomes larger than so many times; the amount is lowered for it")
+      ->check(CLI::Range(1.0, 1e9))
+      ->capture_default_str();
+  add_series(verb, options.matrix);
+  verb.add_flag("--keep-boundary", options.keep_boundary, "leave boundary vertices where they are");
+  verb.add_flag_callback(
+      "--no-check", [&options] { options.check = false; }, "do not look for faces that pass through each other");
+  add_picture(verb, arguments.picture);
+  add_color_moved(verb, arguments.picture);
+  verb.callback([&] { status = run_sharpen(arguments); });
+}
+
+void add_bands(CLI::App& app, BandsArguments& arguments, int& status) {
+  CLI::App& verb = *app.add_subcommand("bands", "split a mesh into bands, from bumps to shape, and mix them anew");
+  add_input(verb, arguments.common);
+  add_output(verb, arguments.common);
+  add_surface(verb, arguments.common);
+  CLI::Option* count = verb.add_option("--count", arguments.count, "of bands; each has bumps twice as long as the last")
+                           ->check(CLI::Range(2, 12))
+                           ->capture_default_str();
+  verb.add_option("--gains", arguments.gains, "how strong each band comes out, finest first: one number a band")
+      ->delimiter(',')
+      ->excludes(count)
+      ->option_text("G1,G2,...");
+  add_series(verb, arguments.matrix);
+  verb.add_flag("--keep-boundary", arguments.keep_boundary, "leave boundary vertices where they are");
+  verb.add_flag("--displacements", arguments.displacements,
+                "write every band too, as attributes band_1, band_2, ... of three numbers a vertex (PLY)");
+  verb.add_option("--plot", arguments.plot, "plot the bands' sizes")
+      ->check(has_extension({".png", ".svg"}))
+      ->option_text("FILE.png|.svg");
+  add_picture(verb, arguments.picture);
+  add_color_moved(verb, arguments.picture);
+  verb.callback([&] { status = run_bands(arguments); });
+}
+
 struct Verbs {
+  SharpenArguments sharpen;
+  BandsArguments bands;
   DenoiseArguments denoise;
   CommonArguments info;
   InterpolateArguments interpolate;
@@ -443,6 +502,8 @@ int run(int argc, char** argv) {
   add_distance(app, verbs.distance, status);
   add_texture(app, verbs.texture, status);
   add_denoise(app, verbs.denoise, status);
+  add_sharpen(app, verbs.sharpen, status);
+  add_bands(app, verbs.bands, status);
   add_repair(app, verbs.repair, status);
   CLI::App& info = *app.add_subcommand("info", "what a mesh is made of, and whether a surface can be made of it");
   add_input(info, verbs.info);

@@ -1,8 +1,10 @@
 /// What an iteration did, as a plot.
 #include <algorithm>
+#include <cmath>
 
 #include "batten/error.h"
 #include "cli/common.h"
+#include "cli/expand.h"
 #ifdef BATTEN_WITH_RENDER
 #include "batten/render/plot.h"
 #endif
@@ -49,7 +51,34 @@ void plot_methods(const std::string& path, const std::vector<MethodResult>& resu
   write_plot(path, plot);
 }
 
+void plot_bands(const std::string& path, const std::vector<Band>& bands, const std::vector<double>& sizes,
+                const std::vector<double>& gains) {
+  Plot plot;
+  plot.title = "The bands of a mesh";
+  plot.x_label = "band, finest first";
+  plot.y_label = "root mean square, in the mesh's unit";
+  plot.log_y = true;
+  PlotLine given{"as given", {}, {}, false};
+  PlotLine mixed{"with their gains", {}, {}, false};
+  for (std::size_t j = 0; j < bands.size(); ++j) {
+    const double x = static_cast<double>(j) + 1.0;
+    given.x.push_back(x);
+    given.y.push_back(sizes[j]);
+    mixed.x.push_back(x);
+    mixed.y.push_back(std::abs(gains[j]) * sizes[j]);
+  }
+  plot.lines.push_back(std::move(given));
+  if (std::any_of(gains.begin(), gains.end(), [](double gain) { return gain != 1.0; }))
+    plot.lines.push_back(std::move(mixed));
+  write_plot(path, plot);
+}
+
 #else
+
+void plot_bands(const std::string& /*path*/, const std::vector<Band>& /*bands*/, const std::vector<double>& /*sizes*/,
+                const std::vector<double>& /*gains*/) {
+  throw Error(ErrorCode::NotAvailable, "this build has no plots; configure with BATTEN_WITH_RENDER=ON");
+}
 
 void plot_methods(const std::string& /*path*/, const std::vector<MethodResult>& /*results*/, double /*tolerance*/) {
   throw Error(ErrorCode::NotAvailable, "this build has no plots; configure with BATTEN_WITH_RENDER=ON");

@@ -3,8 +3,10 @@
 
 #include <thread>
 
+#include "batten/expand/bands.h"
 #include "batten/expand/denoise.h"
 #include "batten/expand/mesh_series.h"
+#include "batten/expand/sharpen.h"
 #include "batten/expand/texture.h"
 #include "batten/interpolate/interpolator.h"
 #include "batten/limit/adaptive.h"
@@ -70,6 +72,13 @@ std::vector<Named> operations(const io_tests::TemporaryFolder& folder) {
          options.features = true;
          options.matrix = SeriesMatrix::Cotangent;
          denoise(mesh, scheme, options, progress);
+       }},
+      {"sharpen", [](const Progress& progress) { sharpen(topology, scheme, mesh.points, {}, progress); }},
+      {"bands",
+       [](const Progress& progress) {
+         static const MeshSeries series(topology, scheme);
+         const std::vector<Band> bands = octave_bands(scheme.kind, SeriesMatrix::Limit, 3);
+         equalize(series, mesh.points, bands, {1.0, 0.5, 1.0}, progress);
        }},
       {"adaptive",
        [](const Progress& progress) {

@@ -1,9 +1,12 @@
 /// \file Everything of the library but pictures (render/render.h).
 #pragma once
 #include "batten/error.h"
+#include "batten/expand/bands.h"
 #include "batten/expand/color_ramp.h"
 #include "batten/expand/denoise.h"
 #include "batten/expand/mesh_series.h"
+#include "batten/expand/self_intersections.h"
+#include "batten/expand/sharpen.h"
 #include "batten/expand/solid_noise.h"
 #include "batten/expand/strength.h"
 #include "batten/expand/surface_noise.h"

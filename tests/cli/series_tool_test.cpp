@@ -37,5 +37,46 @@ TEST_F(Tool, DenoisesByAStrengthInEdgeLengths) {
   EXPECT_NE(points.err.find("no faces"), std::string::npos) << points.err;
 }
 
+TEST_F(Tool, SharpensAndWarnsOfFacesThatPassThroughEachOther) {
+  const Outcome mild = run("sharpen " + kModels + "creature.obj -o sharp.obj --report r.json");
+  ASSERT_EQ(mild.status, 0) << mild.err;
+  EXPECT_NE(mild.out.find("no faces pass through each other"), std::string::npos) << mild.out;
+  const auto report = nlohmann::json::parse(text_of(path("r.json")));
+  EXPECT_EQ(report["growth"].get<double>(), 4.0);
+  EXPECT_GT(report["moved_rms"].get<double>(), 0.01);
+  const Outcome wild = run("sharpen " + kModels + "bracket-scan.obj --passes 4 --most-growth 1000 --report w.json");
+  EXPECT_NE(wild.out.find("WARNING"), std::string::npos) << wild.out;
+  EXPECT_GT(nlohmann::json::parse(text_of(path("w.json")))["intersections_after"]["count"].get<int>(), 0);
+  const Outcome wrong = run("sharpen " + kModels + "creature.obj -m 4 -n 3");
+  EXPECT_EQ(wrong.status, 1);
+  EXPECT_NE(wrong.err.find("1 <= m <= n"), std::string::npos) << wrong.err;
+}
+
+TEST_F(Tool, SplitsAMeshIntoBandsThatAddUpToIt) {
+  const Outcome result =
+      run("bands " + kModels + "creature.obj --gains 1,2,1 -o m.ply --displacements --plot p.svg --report r.json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("band 3"), std::string::npos) << result.out;
+  EXPECT_NE(text_of(path("p.svg")).find("<svg"), std::string::npos);
+  const Mesh before = read_mesh(kModels + "creature.obj");
+  const Mesh mixed = read_mesh(path("m.ply"));
+  Points sum = Points::Zero(before.vertex_count(), 3);
+  Points second = sum;
+  int columns = 0;
+  for (const Attribute& attribute : mixed.attributes) {
+    for (Eigen::Index c = 0; c < attribute.values.cols(); ++c, ++columns) {
+      sum.col(columns % 3) += attribute.values.col(c);
+      if (columns / 3 == 1) second.col(columns % 3) = attribute.values.col(c);
+    }
+  }
+  ASSERT_EQ(columns, 9);
+  EXPECT_LT((sum - before.points).cwiseAbs().maxCoeff(), 1e-14 * 20.0);
+  EXPECT_LT((before.points + second - mixed.points).cwiseAbs().maxCoeff(), 1e-13);
+  const auto report = nlohmann::json::parse(text_of(path("r.json")));
+  EXPECT_NEAR(report["bands"][1]["rms"].get<double>(), second.norm() / std::sqrt(before.vertex_count()), 1e-12);
+  EXPECT_EQ(run("bands " + kModels + "creature.obj --gains 1,2 --count 3").status, 2);
+  EXPECT_EQ(run("bands " + kModels + "creature.obj --gains 1").status, 1);
+}
+
 }  // namespace
 }  // namespace batten::cli_tests

@@ -2,11 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "batten/error.h"
-#include "batten/mesh/triangulate.h"
+#include "batten/expand/face_triangles.h"
 #include "batten/parallel/parallel.h"
 
 namespace batten {
@@ -15,40 +14,6 @@ namespace {
 
 constexpr double kLargestCotangent = 114.6;  // of half a degree
 constexpr double kShare = 8.0 / 9.0;         // 1 - 1/9, the lowest eigenvalue of regular quads
-
-using Triangle = std::array<Index, 3>;
-
-/// The triangles of all faces as positions in their face: those of face f start at face_begin(f) - 2 f.
-class FaceTriangles {
- public:
-  FaceTriangles(const Topology& topology, ConstValuesRef points) : topology_(topology) {
-    if (topology.uniform_face_size() == 3) return;
-    Mesh mesh = mesh_from_topology(topology);
-    mesh.points = points;
-    triangles_.reserve(static_cast<std::size_t>(topology.half_edge_count() - 2 * topology.face_count()));
-    for (Index f = 0; f < topology.face_count(); ++f) triangulate_face(mesh, f, triangles_);
-  }
-
-  /// Calls visit(b, c) for the triangles (origin(h), b, c) at the corner h.
-  template <typename Visit>
-  void at_corner(Index h, const Visit& visit) const {
-    const Index f = topology_.face(h);
-    const Index begin = topology_.face_begin(f);
-    if (triangles_.empty()) return visit(topology_.destination(h), topology_.origin(topology_.previous(h)));
-    const Index size = topology_.face_size(f);
-    const Triangle* triangles = triangles_.data() + (begin - 2 * f);
-    for (Index k = 0; k + 2 < size; ++k) {
-      for (int i = 0; i < 3; ++i) {
-        if (triangles[k][i] != h - begin) continue;
-        visit(topology_.origin(begin + triangles[k][(i + 1) % 3]), topology_.origin(begin + triangles[k][(i + 2) % 3]));
-      }
-    }
-  }
-
- private:
-  const Topology& topology_;
-  std::vector<Triangle> triangles_;
-};
 
 /// One row of C off the diagonal, and the area around its vertex over three.
 struct Row {

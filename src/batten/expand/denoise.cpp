@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "batten/error.h"
+#include "batten/expand/boundary.h"
 #include "batten/expand/volume.h"
 #include "batten/parallel/parallel.h"
 
@@ -22,13 +23,6 @@ Topology with_creases(const Mesh& mesh, const std::vector<Crease>& found, const 
   creased.corners = mesh.corners;
   creased.holes = mesh.holes;
   return Topology(creased, progress);
-}
-
-Buffer<std::uint8_t> boundary_marks(const Topology& topology) {
-  Buffer<std::uint8_t> marks(static_cast<std::size_t>(topology.vertex_count()), 0);
-  for (Index v = 0; v < topology.vertex_count(); ++v)
-    marks[v] = !topology.is_isolated(v) && topology.is_boundary_vertex(v) ? 1 : 0;
-  return marks;
 }
 
 /// Cotangents of noise would be noise; those of the mesh after some passes of the limit matrix are the shape's.

@@ -1,0 +1,123 @@
+/// A mesh in bands, and an equaliser for them.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "batten/error.h"
+#include "batten/expand/bands.h"
+#include "batten/expand/boundary.h"
+#include "batten/parallel/parallel.h"
+#include "cli/common.h"
+#include "cli/expand.h"
+
+namespace batten::cli {
+namespace {
+
+std::string band_text(const std::vector<Band>& bands, std::size_t j) {
+  if (j == 0) return fmt::format("up to {:g} edges", bands[j].longest);
+  return j + 1 < bands.size() ? fmt::format("{:g} to {:g} edges", bands[j].shortest, bands[j].longest)
+                              : std::string("the rest: the shape");
+}
+
+void print_table(const BandsArguments& arguments, const Topology& topology, const Scheme& scheme,
+                 const std::vector<Band>& bands, const std::vector<double>& sizes, const std::vector<double>& gains,
+                 const Stages& stages) {
+  Table table;
+  table.add("mesh", mesh_text(topology));
+  table.add("scheme", weights_text(scheme, arguments.matrix));
+  for (std::size_t j = 0; j < bands.size(); ++j) {
+    table.add(fmt::format("band {}", j + 1),
+              fmt::format("{:<20}  rms {:<10.4g}{}", band_text(bands, j), sizes[j],
+                          gains[j] != 1.0 ? fmt::format("  times {:g}", gains[j]) : std::string()));
+  }
+  table.add("time", stages.text());
+  table.print(arguments.common);
+}
+
+nlohmann::ordered_json bands_json(const std::vector<Band>& bands, const std::vector<double>& energies,
+                                  const std::vector<double>& gains) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (std::size_t j = 0; j < bands.size(); ++j) {
+    nlohmann::ordered_json band = {{"shortest_edges", bands[j].shortest}};
+    if (std::isfinite(bands[j].longest)) band["longest_edges"] = bands[j].longest;
+    band["energy"] = energies[j];
+    band["rms"] = std::sqrt(energies[j]);
+    band["gain"] = gains[j];
+    json.push_back(band);
+  }
+  return json;
+}
+
+nlohmann::ordered_json report_json(const BandsArguments& arguments, const Topology& topology, const Scheme& scheme,
+                                   const Mesh& mesh, const nlohmann::ordered_json& bands,
+                                   const nlohmann::ordered_json& repairs, const Stages& stages) {
+  return {{"verb", "bands"},
+          {"input", arguments.common.input},
+          {"output", arguments.common.output},
+          {"vertices", topology.vertex_count()},
+          {"faces", topology.face_count()},
+          {"repairs", repairs},
+          {"scheme", scheme_json(scheme)},
+          {"weights", weights_word(arguments.matrix)},
+          {"mean_edge", mean_edge_length(topology, mesh.points)},
+          {"bands", bands},
+          {"threads", thread_count()},
+          {"seconds", stages.json()}};
+}
+
+MeshSeries make_series(const BandsArguments& arguments, const Topology& topology, const Scheme& scheme,
+                       const Mesh& mesh) {
+  SeriesOptions options;
+  options.matrix = arguments.matrix;
+  if (arguments.matrix == SeriesMatrix::Cotangent) options.shape = mesh.points;
+  if (arguments.keep_boundary) options.kept = boundary_marks(topology);
+  return {topology, scheme, options, ProgressBar("building", arguments.common.quiet).callback()};
+}
+
+}  // namespace
+
+int run_bands(const BandsArguments& arguments) {
+  const CommonArguments& common = arguments.common;
+  const ThreadLimit limit(common.threads);
+  Stages stages;
+  nlohmann::ordered_json repairs;
+  const Mesh mesh = read_input(common, &repairs);
+  stages.finish("read");
+  require_faces(common, mesh);
+  const Scheme scheme = scheme_for(common, mesh);
+  std::vector<double> gains = arguments.gains;
+  if (gains.empty()) gains.assign(static_cast<std::size_t>(arguments.count), 1.0);
+  const std::vector<Band> bands = octave_bands(scheme.kind, arguments.matrix, static_cast<int>(gains.size()));
+  const Topology topology(mesh, ProgressBar("connecting", common.quiet).callback());
+  const MeshSeries series = make_series(arguments, topology, scheme, mesh);
+  ProgressBar bar("splitting", common.quiet);
+  const Equalized result = equalize(series, mesh.points, bands, gains, bar.callback());
+  Mesh mixed = with_points(mesh, result.values);
+  if (arguments.displacements) {
+    for_each_band(
+        series, mesh.points, bands,
+        [&](std::size_t j, const Values& band) {
+          mixed.attributes.push_back({fmt::format("band_{}", j + 1), band, {}});
+        },
+        bar.callback());
+  }
+  stages.finish("split");
+  write_output(common, mixed);
+  stages.finish("write");
+  if (!arguments.picture.path.empty()) {
+    draw_moved(mesh, mixed, arguments.picture, "mixed anew", common.quiet);
+    stages.finish("picture");
+  }
+  std::vector<double> sizes;
+  for (const double energy : result.energies) sizes.push_back(std::sqrt(energy));
+  if (!arguments.plot.empty()) {
+    plot_bands(arguments.plot, bands, sizes, gains);
+    stages.finish("plot");
+  }
+  print_table(arguments, topology, scheme, bands, sizes, gains, stages);
+  write_json(common.report, report_json(arguments, topology, scheme, mesh, bands_json(bands, result.energies, gains),
+                                        repairs, stages));
+  return 0;
+}
+
+}  // namespace batten::cli

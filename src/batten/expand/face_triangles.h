@@ -1,0 +1,57 @@
+/// \file The faces of a topology as triangles, found again from any corner.
+#pragma once
+#include <array>
+#include <vector>
+
+#include "batten/mesh/topology.h"
+#include "batten/mesh/triangulate.h"
+
+namespace batten {
+
+/// Splits each face as triangulate_face does; holds nothing where all faces are triangles. The topology must outlive
+/// it.
+class FaceTriangles {
+ public:
+  /// points: V-by-3.
+  FaceTriangles(const Topology& topology, ConstValuesRef points) : topology_(topology) {
+    if (topology.uniform_face_size() == 3) return;
+    Mesh mesh = mesh_from_topology(topology);
+    mesh.points = points;
+    triangles_.reserve(static_cast<std::size_t>(count()));
+    for (Index f = 0; f < topology.face_count(); ++f) triangulate_face(mesh, f, triangles_);
+  }
+
+  /// Of all faces.
+  Index count() const { return topology_.half_edge_count() - 2 * topology_.face_count(); }
+
+  /// Those of face f start here, face after face.
+  Index first_of(Index f) const { return topology_.face_begin(f) - 2 * f; }
+
+  /// The vertices of the k-th triangle of face f.
+  std::array<Index, 3> vertices(Index f, Index k) const {
+    const Index begin = topology_.face_begin(f);
+    if (triangles_.empty()) return {topology_.origin(begin), topology_.origin(begin + 1), topology_.origin(begin + 2)};
+    const std::array<Index, 3>& places = triangles_[first_of(f) + k];
+    return {topology_.origin(begin + places[0]), topology_.origin(begin + places[1]),
+            topology_.origin(begin + places[2])};
+  }
+
+  /// Calls visit(b, c) for the triangles (origin(h), b, c) at the corner h.
+  template <typename Visit>
+  void at_corner(Index h, const Visit& visit) const {
+    const Index f = topology_.face(h);
+    const Index v = topology_.origin(h);
+    for (Index k = 0; k + 2 < topology_.face_size(f); ++k) {
+      const std::array<Index, 3> triangle = vertices(f, k);
+      for (int i = 0; i < 3; ++i) {
+        if (triangle[i] == v) visit(triangle[(i + 1) % 3], triangle[(i + 2) % 3]);
+      }
+    }
+  }
+
+ private:
+  const Topology& topology_;
+  std::vector<std::array<Index, 3>> triangles_;  ///< positions in the face
+};
+
+}  // namespace batten
