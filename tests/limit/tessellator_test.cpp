@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "batten/error.h"
+#include "batten/mesh/triangulate.h"
 #include "batten/parallel/parallel.h"
 #include "batten/refine/refined_mesh.h"
 #include "support/shapes.h"
@@ -35,6 +36,23 @@ TEST(Tessellator, IsRefinementOnSmoothAndTaggedShapes) {
       if (flat) continue;  // no normals at valence 2
       expect_refinement(mesh, scheme_of(SchemeKind::CatmullClark), 3);
       if (all_triangles(mesh)) expect_refinement(mesh, scheme_of(SchemeKind::Loop), 3);
+    }
+  }
+}
+
+TEST(Tessellator, IsRefinementUnderTheButterflies) {
+  for (const test::NamedMesh& sample : test::sample_meshes()) {
+    for (const unsigned seed : {0U, 1U, 2U}) {
+      SCOPED_TRACE(sample.name + " with tags " + std::to_string(seed));
+      Mesh mesh = triangulated(test::jittered(sample.mesh, 0.05, 7));
+      if (seed > 0) mesh = test::with_random_tags(std::move(mesh), seed);
+      if (sample.name.find("dihedron") != std::string::npos) continue;  // flat
+      Scheme scheme = scheme_of(SchemeKind::ModifiedButterfly);
+      for (const int levels : {1, 2, 4}) expect_refinement(mesh, scheme, levels);
+      scheme.tension = 1.0 / 64;
+      scheme.butterfly_boundary = ButterflyBoundary::Reflect;
+      expect_refinement(mesh, scheme, 3);
+      expect_refinement(mesh, scheme_of(SchemeKind::Butterfly), 3);
     }
   }
 }

@@ -119,7 +119,10 @@ class Writer {
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     if (fan.has_masks()) {
       const ButterflyTangentMasks& masks = tangents_.at(fan.shape(), fan.triangles());
-      normal = tangent(vertex, fan, masks.first).cross(tangent(vertex, fan, masks.second));
+      const Eigen::Vector3d first = tangent(vertex, fan, masks.first);
+      const Eigen::Vector3d second = tangent(vertex, fan, masks.second);
+      normal = first.cross(second);
+      if (!(normal.norm() > kParallel * first.norm() * second.norm())) normal.setZero();
     }
     if (normal.isZero(0.0)) normal = cone_normal(vertex, fan);
     const double length = normal.norm();
@@ -158,6 +161,9 @@ class Writer {
     }
     return sum;
   }
+
+  /// The sine below which two tangents are one: where Butterfly is not smooth both masks are its first eigenvector.
+  static constexpr double kParallel = 1e-9;
 
   const Topology& topology_;
   ConstValuesRef points_;

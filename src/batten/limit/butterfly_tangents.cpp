@@ -180,9 +180,9 @@ TwoRingMask across_curve(const TwoRings& rings) {
   });
 }
 
-/// The triangle shrinks to the curve, whose bend decides the plane. It has no limit: curves of the four-point scheme have
-/// no second derivative, and their second differences turn, ever slower. So those of this level.
-TwoRingMask across_single_triangle() { return {-2.0, {1.0, 1.0}, {}, {}}; }
+/// The triangle shrinks to the curve faster than it does itself, and the plane beside it has no limit: second
+/// differences of the four-point scheme turn, ever slower. So the plane of the curve and the next point at this level.
+TwoRingMask across_single_triangle() { return {-1.0, {0.0, 0.0}, {}, {1.0}}; }
 
 ButterflyTangentMasks make_masks(const Scheme& scheme, ButterflyFan fan, int k) {
   const bool modified = scheme.kind == SchemeKind::ModifiedButterfly;

@@ -6,6 +6,15 @@
 
 namespace batten {
 
+/// The numbers of a tessellation's vertices.
+struct GridNumbering {
+  const Topology& base;
+  const TessellationLayout& layout;
+
+  Index vertex(Index face, Index i, Index j) const { return layout.vertex(base, face, i, j); }
+  std::int64_t inside_face(Index face, Index j) const { return layout.inside_face(face, j); }
+};
+
 /// Writes them one grid after the other, from the numbers of two rows of points at a time. Numbering has
 /// vertex(face, i, j), and inside_face(face, j) for the first point inside the face in row j, where numbers run on.
 template <typename Numbering>

@@ -59,7 +59,8 @@ LimitMatrix::LimitMatrix(const Topology& topology, const Scheme& scheme, LimitOp
 void LimitMatrix::classify(Index vertex, VertexRing& ring) {
   face_counts_[vertex] = static_cast<std::uint8_t>(std::min<Index>(255, topology_.vertex_face_count(vertex)));
   LimitRow row = LimitRow::Smooth;
-  const bool plain_triangles = scheme_.kind != SchemeKind::CatmullClark || scheme_.triangle_rule == TriangleRule::Catmark;
+  const bool plain_triangles =
+      scheme_.kind != SchemeKind::CatmullClark || scheme_.triangle_rule == TriangleRule::Catmark;
   if (topology_.is_isolated(vertex) || is_interpolating(scheme_.kind)) {
     row = LimitRow::Fixed;
   } else if (!is_untagged(topology_) || topology_.is_boundary_vertex(vertex) || !plain_triangles) {

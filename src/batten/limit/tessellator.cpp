@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "batten/error.h"
+#include "batten/limit/butterfly_grids.h"
 #include "batten/limit/corner_tessellation.h"
 #include "batten/limit/grid_faces.h"
 #include "batten/limit/piece_grid.h"
@@ -96,6 +97,8 @@ struct Tessellator::Parts {
   template <typename Scalar>
   void check_output(ConstValuesRef control_values, std::span<Scalar> out, std::span<Scalar> normals) const;
   template <typename Scalar>
+  void fill_interpolating(ConstValuesRef control_values, std::span<Scalar> out, std::span<Scalar> normals) const;
+  template <typename Scalar>
   void evaluate(ConstValuesRef control_values, bool limit, std::span<Scalar> out, std::span<Scalar> normals) const;
 };
 
@@ -120,15 +123,6 @@ template <typename Scalar>
   }
 }
 
-/// Vertices' numbers, as GridFaces wants them.
-struct VertexNumbering {
-  const Topology& base;
-  const TessellationLayout& layout;
-
-  Index vertex(Index face, Index i, Index j) const { return layout.vertex(base, face, i, j); }
-  std::int64_t inside_face(Index face, Index j) const { return layout.inside_face(face, j); }
-};
-
 }  // namespace
 
 template <typename Scalar>
@@ -143,11 +137,25 @@ void Tessellator::Parts::check_output(ConstValuesRef control_values, std::span<S
                                        (normals.empty() ? "" : ", and normals need three columns"));
 }
 
+/// Refined points are on the limit surface.
+template <typename Scalar>
+void Tessellator::Parts::fill_interpolating(ConstValuesRef control_values, std::span<Scalar> out,
+                                            std::span<Scalar> normals) const {
+  fill_butterfly_grids(base(), scheme, control_values, layout.levels, out.data());
+  if (normals.empty()) return;
+  Values points(layout.vertices, 3);
+  fill_butterfly_grids(base(), scheme, control_values, layout.levels, points.data());
+  const Values exact = butterfly_grid_normals(base(), scheme, points, layout.levels);
+  std::transform(exact.data(), exact.data() + exact.size(), normals.begin(),
+                 [](double number) { return static_cast<Scalar>(number); });
+}
+
 template <typename Scalar>
 void Tessellator::Parts::evaluate(ConstValuesRef control_values, bool limit, std::span<Scalar> out,
                                   std::span<Scalar> normals) const {
   check_output(control_values, out, normals);
   if (out.empty()) return;
+  if (is_interpolating(scheme.kind)) return fill_interpolating(control_values, out, normals);
   if (!limit && is_one_step()) return refine_values(control, scheme, {}, control_values, out.data());
   const auto k = static_cast<int>(control_values.cols());
   const bool with_normals = !normals.empty();
@@ -232,7 +240,7 @@ void Tessellator::faces(std::span<Index> out) const {
   parallel_for(
       base.face_count(),
       [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-        const VertexNumbering numbering{base, layout};
+        const GridNumbering numbering{base, layout};
         GridFaces grids(layout, numbering);
         for (auto f = static_cast<Index>(begin); f < end; ++f) {
           const Index rank = parts_->face_rank.empty() ? f : parts_->face_rank[f];

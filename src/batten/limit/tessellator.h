@@ -1,7 +1,8 @@
 /// \file The surface as a fine uniform mesh, at the speed of memory.
 ///
 /// The same points as Refinement's after `levels` steps, to rounding, in another order: each face of the base is a grid
-/// of 2^steps steps a side, filled at once from the control points that its spline needs (refine/pieces.h). The base is
+/// of 2^steps steps a side, filled at once from the control points that its spline needs (refine/pieces.h), or, under
+/// the Butterflies, level by level (limit/butterfly_grids.h). The base is
 /// the control mesh itself, or, for Catmull-Clark with faces that are no quads or with alpha, its first refinement;
 /// then steps is levels - 1.
 ///
