@@ -227,6 +227,10 @@ TEST(MeshSeries, RefusesWhatDoesNotFit) {
   options.shape = mesh.points;
   options.shape(3, 1) = std::nan("");
   EXPECT_EQ(code_of([&] { const MeshSeries series(topology, {}, options); }), ErrorCode::NotFinite);
+  Scheme butterfly;
+  butterfly.kind = SchemeKind::ModifiedButterfly;
+  const Topology triangles(icosahedron());
+  EXPECT_EQ(code_of([&] { const MeshSeries none(triangles, butterfly); }), ErrorCode::BadArgument);
   const MeshSeries series(topology, {});
   EXPECT_EQ(code_of([&] { series.apply(Values::Zero(7, 3)); }), ErrorCode::BadShape);
   EXPECT_EQ(code_of([&] { series.apply(options.shape); }), ErrorCode::NotFinite);

@@ -54,6 +54,23 @@ class KeptRows : public RowSource {
   const Buffer<std::uint8_t>& kept_;
 };
 
+bool all_finite(ConstValuesRef values) {
+  return parallel_reduce(
+      values.rows(), true,
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end) { return values.middleRows(begin, end - begin).allFinite(); },
+      [](bool a, bool b) { return a && b; });
+}
+
+/// The Butterfly schemes pass through their control points: nothing would happen.
+const Scheme& require_approximating(const Scheme& scheme) {
+  if (is_interpolating(scheme.kind)) {
+    throw Error(ErrorCode::BadArgument,
+                "the Butterfly schemes pass through their control points, so their limit matrix smooths nothing; take "
+                "Loop (--scheme loop)");
+  }
+  return scheme;
+}
+
 }  // namespace
 
 struct MeshSeries::Parts {
@@ -66,7 +83,7 @@ struct MeshSeries::Parts {
   Parts(const Topology& topology_in, const Scheme& scheme, const SeriesOptions& options, const Progress& progress)
       : topology(topology_in),
         kept(options.kept),
-        matrix(topology_in, scheme, {LimitMasks::Exact, safe_alpha(topology_in, scheme)},
+        matrix(topology_in, require_approximating(scheme), {LimitMasks::Exact, safe_alpha(topology_in, scheme)},
                progress_within(progress, 0.0, 0.2)) {
     if (!kept.empty() && static_cast<Index>(kept.size()) != topology.vertex_count())
       throw Error(ErrorCode::BadShape, "kept must be empty or have one entry a vertex");
@@ -128,14 +145,14 @@ Values MeshSeries::polynomial(ConstValuesRef values, const std::vector<double>& 
   require_vertex_rows(parts_->topology, values);
   if (coefficients.empty()) throw Error(ErrorCode::BadArgument, "a polynomial needs a coefficient");
   if (passes < 0) throw Error(ErrorCode::BadArgument, "passes must not be negative");
-  if (!values.allFinite()) throw Error(ErrorCode::NotFinite, "the values hold a number that is not finite");
-  Values x = values;
-  if (x.size() == 0) return x;
+  if (!all_finite(values)) throw Error(ErrorCode::NotFinite, "the values hold a number that is not finite");
   if (parts_->tiles) {
-    parts_->tiles->apply(coefficients, passes, x, progress);
-  } else {
-    parts_->sweep(coefficients, passes, x, progress);
+    Values result(values.rows(), values.cols());
+    parts_->tiles->apply(coefficients, passes, values, result, progress);
+    return result;
   }
+  Values x = values;
+  if (x.size() > 0) parts_->sweep(coefficients, passes, x, progress);
   return x;
 }
 

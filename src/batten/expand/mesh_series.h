@@ -34,7 +34,8 @@ class MeshSeries {
  public:
   /// Where a mesh has smooth vertices of valence 2, the limit matrix would have negative eigenvalues; their components
   /// are taken with Lai's alpha = 1, which makes them positive.
-  /// Throws Error: NotTriangles (Loop on other faces), BadShape (kept, shape), NotFinite (shape), Cancelled.
+  /// Throws Error: NotTriangles (Loop on other faces), BadShape (kept, shape), NotFinite (shape), BadArgument (a
+  /// Butterfly scheme, which smooths nothing), Cancelled.
   MeshSeries(const Topology& topology, const Scheme& scheme, const SeriesOptions& options = {},
              const Progress& progress = {});
   ~MeshSeries();

@@ -1,7 +1,10 @@
 #include "batten/solve/tiled_polynomial.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <mutex>
+#include <utility>
 
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
@@ -69,26 +72,30 @@ Scratch& scratch_for(const Tile& tile) {
 
 /// The caller's columns [first, first + count).
 struct Window {
-  double* data;
-  std::ptrdiff_t stride;
+  const double* in;
+  std::ptrdiff_t in_stride;
+  double* out;
+  std::ptrdiff_t out_stride;
   std::ptrdiff_t count;
 
   Double4 load(Index row) const {
-    const double* from = data + row * stride;
+    const double* from = in + row * in_stride;
     if (count == 3) return Double4{from[0], from[1], from[2], 0.0};
     Double4 value{0.0, 0.0, 0.0, 0.0};
     for (std::ptrdiff_t c = 0; c < count; ++c) value[c] = from[c];
     return value;
   }
   void store(Index row, const Double4& value) const {
-    double* to = data + row * stride;
+    double* to = out + row * out_stride;
     for (std::ptrdiff_t c = 0; c < count; ++c) to[c] = value[c];
   }
 };
 
-/// Where a round reads and writes: the columns of the round before, or the caller's.
+/// Where a round reads and writes: the columns of the round before and its own, or, in the first and the last round,
+/// the caller's.
 struct Places {
   const Window* from;  ///< null: `before`
+  const Window* to;    ///< null: `after`
   const Columns* before;
   Columns* after;
 };
@@ -123,6 +130,10 @@ void run_round(const Tiling& tiling, const Tile& tile, const Round& round, const
     for (Index i = 0; i < tile.ring_end[last_ring]; ++i)
       scratch.sum[i] = step.keep * scratch.sum[i] + step.coefficient * scratch.y[i];
   }
+  if (places.to != nullptr) {
+    for (Index i = 0; i < tile.own_count; ++i) places.to->store(tiling.order[tile.first + i], scratch.sum[i]);
+    return;
+  }
   std::copy_n(scratch.sum.begin(), tile.own_count, places.after->sum.begin() + tile.first);
   if (!round.back().last) std::copy_n(scratch.y.begin(), tile.own_count, places.after->y.begin() + tile.first);
 }
@@ -132,39 +143,36 @@ void run_round(const Tiling& tiling, const Tile& tile, const Round& round, const
 struct TiledPolynomial::Parts {
   Tiling tiling;
   mutable std::mutex mutex;
-  mutable std::unique_ptr<std::array<Columns, 2>> spare;
+  mutable std::array<Columns, 2> spare;
 
-  std::unique_ptr<std::array<Columns, 2>> take() const {
+  std::array<Columns, 2> take() const {
     const std::lock_guard<std::mutex> lock(mutex);
-    return spare ? std::move(spare) : std::make_unique<std::array<Columns, 2>>();
+    return std::exchange(spare, {});
   }
-  void give_back(std::unique_ptr<std::array<Columns, 2>> columns) const {
+  void give_back(std::array<Columns, 2> columns) const {
     const std::lock_guard<std::mutex> lock(mutex);
     spare = std::move(columns);
   }
 
   void run(const std::vector<Round>& rounds, const Window& window, const Progress& progress) const {
-    const std::unique_ptr<std::array<Columns, 2>> columns_owner = take();
-    std::array<Columns, 2>& columns = *columns_owner;
+    std::array<Columns, 2> columns = take();
     const std::size_t size = tiling.order.size();
     const bool with_y = !rounds.front().back().last;
-    for (std::size_t r = 0; r < std::min<std::size_t>(rounds.size(), 2); ++r) {
+    for (std::size_t r = 0; r < std::min<std::size_t>(rounds.size() - 1, 2); ++r) {
       columns[r].sum.resize(size);
       if (with_y) columns[r].y.resize(size);
     }
     const auto tile_count = static_cast<std::ptrdiff_t>(tiling.tiles.size());
     const double share = 1.0 / static_cast<double>(rounds.size());
     for (std::size_t r = 0; r < rounds.size(); ++r) {
-      const Places places{r == 0 ? &window : nullptr, &columns[(r + 1) % 2], &columns[r % 2]};
+      const Places places{r == 0 ? &window : nullptr, r + 1 == rounds.size() ? &window : nullptr, &columns[(r + 1) % 2],
+                          &columns[r % 2]};
       const double done = share * static_cast<double>(r);
       parallel_for_each(
           tile_count, [&](std::ptrdiff_t t) { run_round(tiling, tiling.tiles[t], rounds[r], places); },
           progress_within(progress, done, done + share));
     }
-    const Buffer<Double4>& result = columns[(rounds.size() + 1) % 2].sum;
-    parallel_for(static_cast<std::ptrdiff_t>(size), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-      for (std::ptrdiff_t i = begin; i < end; ++i) window.store(tiling.order[i], result[i]);
-    });
+    give_back(std::move(columns));
   }
 };
 
@@ -179,21 +187,23 @@ TiledPolynomial::TiledPolynomial(TiledPolynomial&&) noexcept = default;
 bool TiledPolynomial::fits() const { return !parts_->tiling.tiles.empty() || parts_->tiling.order.empty(); }
 double TiledPolynomial::overlap() const { return parts_->tiling.overlap; }
 
-void TiledPolynomial::apply(const std::vector<double>& coefficients, int passes, ValuesRef x,
+void TiledPolynomial::apply(const std::vector<double>& coefficients, int passes, ConstValuesRef x, ValuesRef result,
                             const Progress& progress) const {
-  if (x.rows() != static_cast<Eigen::Index>(parts_->tiling.order.size()))
-    throw Error(ErrorCode::BadShape, "values must have one row an unknown");
+  if (x.rows() != static_cast<Eigen::Index>(parts_->tiling.order.size()) || result.rows() != x.rows() ||
+      result.cols() != x.cols())
+    throw Error(ErrorCode::BadShape, "values and results must have one row an unknown and as many columns");
   if (coefficients.empty()) throw Error(ErrorCode::BadArgument, "a polynomial needs a coefficient");
   if (!fits()) throw Error(ErrorCode::NotAvailable, "this system has rows too wide for tiles");
-  if (x.size() == 0 || passes <= 0) return;
-  if (coefficients.size() == 1) {
-    for (int k = 0; k < passes; ++k) x *= coefficients[0];
+  if (x.size() == 0) return;
+  if (passes <= 0 || coefficients.size() == 1) {
+    result = std::pow(coefficients[0], std::max(passes, 0)) * x;
     return;
   }
   const std::vector<Round> rounds = plan(coefficients, passes);
   const Eigen::Index groups = (x.cols() + 3) / 4;
   for (Eigen::Index g = 0; g < groups; ++g) {
-    const Window window{x.data() + 4 * g, x.outerStride(), std::min<Eigen::Index>(4, x.cols() - 4 * g)};
+    const Window window{x.data() + 4 * g, x.outerStride(), result.data() + 4 * g, result.outerStride(),
+                        std::min<Eigen::Index>(4, x.cols() - 4 * g)};
     const double share = 1.0 / static_cast<double>(groups);
     parts_->run(rounds, window,
                 progress_within(progress, share * static_cast<double>(g), share * static_cast<double>(g + 1)));

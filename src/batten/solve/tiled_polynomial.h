@@ -26,10 +26,12 @@ class TiledPolynomial {
   /// Unknowns held by all tiles, the surroundings included, over unknowns: what the tiling costs.
   double overlap() const;
 
-  /// x <- (sum_i coefficients_i G^i) x, `passes` times. x: n-by-k. The result does not depend on the number of threads.
-  /// Memory: 64 bytes an unknown, 128 for polynomials of a degree above 7; kept for the next call.
-  /// Throws Error: BadShape (rows of x), BadArgument (no coefficients), NotAvailable (fits() is false), Cancelled.
-  void apply(const std::vector<double>& coefficients, int passes, ValuesRef x, const Progress& progress = {}) const;
+  /// result = (sum_i coefficients_i G^i)^passes x, both n-by-k and apart in memory. Does not depend on the number of
+  /// threads. Memory: 64 bytes an unknown, 128 for polynomials of a degree above 7; none where seven applications of A
+  /// do. It is kept for the next call.
+  /// Throws Error: BadShape, BadArgument (no coefficients), NotAvailable (fits() is false), Cancelled.
+  void apply(const std::vector<double>& coefficients, int passes, ConstValuesRef x, ValuesRef result,
+             const Progress& progress = {}) const;
 
  private:
   struct Parts;
