@@ -9,6 +9,7 @@
 #include "batten/error.h"
 #include "batten/limit/piece_grid.h"
 #include "batten/limit/ring_blocks.h"
+#include "batten/limit/ring_descents.h"
 #include "batten/limit/spline_jet.h"
 #include "batten/limit/vertex_limit.h"
 #include "batten/parallel/parallel.h"
@@ -56,19 +57,18 @@ Approach approach(bool quads, double u, double v) {
   return {corner, std::max(0, 1022 - static_cast<int>(bits >> 52))};
 }
 
-/// The parameters of the child that so many halvings towards a corner lead to.
-double approached(double parameter, bool far_side, double factor) {
-  return far_side ? 1.0 - factor * (1.0 - parameter) : factor * parameter;
+/// (u, v) become those of the child that so many halvings towards a corner lead to. Returns how much faster they run.
+double approach_corner(bool quads, int corner, int halvings, double& u, double& v) {
+  const double factor = std::ldexp(1.0, halvings);
+  const auto approached = [&](double parameter, bool far_side) {
+    return far_side ? 1.0 - factor * (1.0 - parameter) : factor * parameter;
+  };
+  u = approached(u, corner == 1 || (quads && corner == 2));
+  v = approached(v, corner >= 2);
+  return factor;
 }
 
 constexpr auto kOpenPatch = static_cast<std::size_t>(-1);
-
-/// Scratch memory of one query.
-struct Workspace {
-  Buffer<Double4> ring;
-  Buffer<Double4> centred;
-  Buffer<Index> order;  ///< 0, 1, 2, ...: the rows of a ring that stands in a row
-};
 
 /// The jet of a patch, whose parameters run `scale` times as fast as the place's.
 void set_jet(const PatchJet& patch, const Double4& origin, double scale, Jet& jet) {
@@ -91,14 +91,6 @@ Buffer<Double4> with_a_spare_column(ConstValuesRef values) {
   return points;
 }
 
-/// A ring or patch on the way down: its control points are points[rows[i]], seen from the origin.
-struct Descent {
-  Index kind;
-  const Double4* points;
-  const Index* rows;
-  Double4 origin;
-};
-
 }  // namespace
 
 struct LimitSurface::Parts {
@@ -110,6 +102,7 @@ struct LimitSurface::Parts {
   RingSteps steps;
   Buffer<Index> kinds;  ///< of each configuration of the pieces
   std::unique_ptr<RingBlocks> blocks;
+  std::unique_ptr<RingDescents> descents;
   int kept_halvings = 0;
   /// Of each piece: where its tree stands in `trees`, or whether points of its patch are missing.
   Buffer<std::size_t> tree_starts;
@@ -130,6 +123,7 @@ struct LimitSurface::Parts {
       kinds.push_back(steps.kind_of(configuration.topology, ring));
     }
     blocks = std::make_unique<RingBlocks>(steps, kMostKeptHalvings);
+    descents = std::make_unique<RingDescents>(steps);
     lay_out_trees();
   }
 
@@ -140,7 +134,7 @@ struct LimitSurface::Parts {
   void set_control(ConstValuesRef control);
   void check(const SurfacePlace& place) const { require_place(base(), place); }
   const Piece& locate(const SurfacePlace& place, double& u, double& v) const;
-  void set(const SurfacePlace& place, Workspace& work, Jet& jet) const;
+  void set(const SurfacePlace& place, DescentScratch& scratch, Jet& jet) const;
   void patch_jet(double u, double v, const Double4* from, const Index* rows, PatchJet& jet) const {
     if (quads) {
       quad_jet(u, v, from, rows, jet);
@@ -149,8 +143,7 @@ struct LimitSurface::Parts {
     }
   }
   void set_on_open_patch(const Piece& piece, double u, double v, double scale, Jet& jet) const;
-  void set_on_ring(const Piece& piece, double u, double v, double scale, Workspace& work, Jet& jet) const;
-  void descend(int number, Workspace& work, Descent& at) const;
+  void set_on_ring(const Piece& piece, double u, double v, double scale, DescentScratch& scratch, Jet& jet) const;
   void set_at_vertex(const Piece& piece, double u, double v, Jet& jet) const;
   std::size_t number_of(const Piece& piece) const { return static_cast<std::size_t>(&piece - pieces.begin(0)); }
 };
@@ -262,7 +255,7 @@ void LimitSurface::Parts::set_on_open_patch(const Piece& piece, double u, double
 }
 
 /// Halves the face until it is regular: down its tree, then as deep as it takes.
-void LimitSurface::Parts::set_on_ring(const Piece& piece, double u, double v, double scale, Workspace& work,
+void LimitSurface::Parts::set_on_ring(const Piece& piece, double u, double v, double scale, DescentScratch& scratch,
                                       Jet& jet) const {
   const double first_u = u;
   const double first_v = v;
@@ -276,10 +269,7 @@ void LimitSurface::Parts::set_on_ring(const Piece& piece, double u, double v, do
     halvings = std::min(near.halvings, static_cast<int>(jumps.size()));
     if (halvings > 0) {
       const RingBlocks::Jump& jump = jumps[halvings - 1];
-      const double factor = std::ldexp(1.0, halvings);
-      u = approached(u, near.corner == 1 || (quads && near.corner == 2), factor);
-      v = approached(v, near.corner >= 2, factor);
-      scale *= factor;
+      scale *= approach_corner(quads, near.corner, halvings, u, v);
       at = {jump.child.kind, tree + jump.block + 1, jump.child.points, tree[jump.block]};
       tree += jump.tree;
       node = jump.child.node;
@@ -294,30 +284,19 @@ void LimitSurface::Parts::set_on_ring(const Piece& piece, double u, double v, do
       node = child.node;
     }
   }
-  for (; at.kind != RingSteps::kPatch && halvings < kMostHalvings; ++halvings) {
+  while (at.kind != RingSteps::kPatch && halvings < kMostHalvings) {
+    const Approach near = approach(quads, u, v);
+    const int to_corner = std::min(near.halvings, descents->most_to_corner(at.kind, near.corner));
+    scale *= approach_corner(quads, near.corner, to_corner, u, v);
     const Halving step = halve(quads, u, v);
     scale *= step.factor;
-    descend(step.child, work, at);
+    halvings += to_corner + 1;
+    descents->descend(near.corner, to_corner, step.child, scratch, at);
   }
   if (at.kind != RingSteps::kPatch) return set_at_vertex(piece, first_u, first_v, jet);
   PatchJet sums;
   patch_jet(u, v, at.points, at.rows, sums);
   set_jet(sums, at.origin, scale, jet);
-}
-
-/// To a child's points, in scratch memory.
-void LimitSurface::Parts::descend(int number, Workspace& work, Descent& at) const {
-  const RingSteps::Step& step = steps.step(at.kind);
-  const Buffer<Index>& child = step.children[number];
-  const std::size_t count = child.size();
-  const Double4 centre = at.points[at.rows[0]];
-  blocks->centre(at.kind, at.points, at.rows, work.centred);
-  work.ring.resize(count);
-  for (std::size_t i = work.order.size(); i < count; ++i) work.order.push_back(static_cast<Index>(i));
-  for (std::size_t i = 0; i < count; ++i) {
-    work.ring[i] = RingBlocks::combine(step.rows, child[i], work.centred.data());
-  }
-  at = {steps.child(at.kind, number).kind, work.ring.data(), work.order.data(), at.origin + centre};
 }
 
 /// At the corner of the piece that the place is.
@@ -339,13 +318,13 @@ void LimitSurface::Parts::set_at_vertex(const Piece& piece, double u, double v, 
   jet.regular = false;
 }
 
-void LimitSurface::Parts::set(const SurfacePlace& place, Workspace& work, Jet& jet) const {
+void LimitSurface::Parts::set(const SurfacePlace& place, DescentScratch& scratch, Jet& jet) const {
   double u = 0.0;
   double v = 0.0;
   const Piece& piece = locate(place, u, v);
   const double size = static_cast<double>(1 << kLevels) / piece.size;
   const double scale = piece.turned ? -size : size;
-  if (piece.kind != Piece::Kind::Patch) return set_on_ring(piece, u, v, scale, work, jet);
+  if (piece.kind != Piece::Kind::Patch) return set_on_ring(piece, u, v, scale, scratch, jet);
   if (tree_starts[number_of(piece)] == kOpenPatch) return set_on_open_patch(piece, u, v, scale, jet);
   PatchJet sums;
   patch_jet(u, v, points[piece.level].data(), pieces.rows(piece), sums);
@@ -378,9 +357,9 @@ void LimitSurface::set_control(ConstValuesRef control) { parts_->set_control(con
 
 Jet LimitSurface::jet(const SurfacePlace& place) const {
   parts_->check(place);
-  Workspace work;
+  DescentScratch scratch;
   Jet result;
-  parts_->set(place, work, result);
+  parts_->set(place, scratch, result);
   return result;
 }
 
@@ -393,8 +372,8 @@ void LimitSurface::jets(std::span<const SurfacePlace> places, std::span<Jet> jet
   parallel_for(
       static_cast<std::ptrdiff_t>(places.size()),
       [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-        Workspace work;
-        for (std::ptrdiff_t i = begin; i < end; ++i) parts_->set(places[i], work, jets[i]);
+        DescentScratch scratch;
+        for (std::ptrdiff_t i = begin; i < end; ++i) parts_->set(places[i], scratch, jets[i]);
       },
       256);
 }

@@ -49,6 +49,7 @@ class RingBlocks {
   void fill(std::int32_t node, const Double4* points, const Index* rows, Double4 origin, Double4* tree,
             Buffer<Double4>& scratch) const;
 
+ private:
   /// The ring as seen from its first point.
   void centre(Index kind, const Double4* points, const Index* rows, Buffer<Double4>& ring) const;
   /// One point of a step on a ring.
@@ -65,7 +66,6 @@ class RingBlocks {
     return even + odd;
   }
 
- private:
   const RingSteps& steps_;
   Buffer<Node> nodes_;
   std::vector<std::vector<Jump>> jumps_;  ///< of each node, four
