@@ -5,6 +5,7 @@
 #include <string>
 
 #include "batten/expand/denoise.h"
+#include "batten/expand/morph.h"
 #include "batten/expand/sharpen.h"
 #include "batten/expand/texture.h"
 #include "batten/interpolate/interpolator.h"
@@ -142,6 +143,20 @@ struct BandsArguments {
   std::string plot;
 };
 
+struct MorphArguments {
+  CommonArguments common;  ///< input: where it starts
+  PictureArguments picture;
+  std::string target;  ///< where it ends
+  MorphOptions options;
+  std::optional<double> rho;  ///< the paper's sequence
+  bool align = true;
+  int frames = -1;           ///< -1: 11 files, or 24 key frames in a GLB
+  std::optional<double> at;  ///< one frame
+  double seconds = 2.0;      ///< of a GLB's animation
+  int levels = -1;           ///< of a GLB's surface; -1: at most 3
+  bool resample = false;
+};
+
 struct RepairArguments {
   CommonArguments common;
   RepairOptions options;
@@ -155,6 +170,7 @@ int run_adaptive(const SubdivideArguments& arguments);
 int run_convert(const CommonArguments& arguments);
 int run_repair(const RepairArguments& arguments);
 int run_render(const RenderArguments& arguments);
+int run_morph(const MorphArguments& arguments);
 int run_texture(const TextureArguments& arguments);
 int run_distance(const DistanceArguments& arguments);
 int run_denoise(const DenoiseArguments& arguments);

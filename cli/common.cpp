@@ -129,6 +129,15 @@ Scheme scheme_for(const CommonArguments& arguments, const Mesh& mesh) {
   return scheme;
 }
 
+std::string numbered(const std::string& path, std::size_t number) {
+  const std::size_t dot = path.find_last_of('.');
+  const std::size_t slash = path.find_last_of('/');
+  const bool has_type = dot != std::string::npos && (slash == std::string::npos || dot > slash);
+  const std::string digits = std::to_string(number);
+  const std::string part = "-" + std::string(3 - std::min<std::size_t>(3, digits.size()), '0') + digits;
+  return has_type ? path.substr(0, dot) + part + path.substr(dot) : path + part;
+}
+
 std::int64_t peak_memory_bytes() {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);) {

@@ -59,6 +59,8 @@ void add_changes(Table& table, const std::string& name, const std::vector<Repair
 void write_output(const CommonArguments& arguments, const Mesh& mesh);
 /// The mesh's own scheme, overruled by the options.
 Scheme scheme_for(const CommonArguments& arguments, const Mesh& mesh);
+/// name.png becomes name-007.png.
+std::string numbered(const std::string& path, std::size_t number);
 /// The most memory this process has held, in bytes; 0 where the system does not tell.
 std::int64_t peak_memory_bytes();
 void write_json(const std::string& path, const nlohmann::ordered_json& json);

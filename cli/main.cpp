@@ -55,6 +55,8 @@ const Names<TexturePreset> kPresets{{"marble", TexturePreset::Marble},
                                     {"rust", TexturePreset::Rust},
                                     {"clouds", TexturePreset::Clouds}};
 
+const Names<MorphOrder> kOrders{{"low-first", MorphOrder::LowFirst}, {"low-last", MorphOrder::LowLast}};
+
 /// An option whose words stand for an enumerator; the help lists the words.
 template <typename Enum, typename Target>
 void add_choice(CLI::App& verb, const std::string& name, Target& target, const Names<Enum>& names,
@@ -306,6 +308,7 @@ struct Verbs {
   RenderArguments render;
   DistanceArguments distance;
   TextureArguments texture;
+  MorphArguments morph;
   RepairArguments repair;
 };
 
@@ -474,6 +477,48 @@ void add_texture(CLI::App& app, TextureArguments& arguments, int& status) {
   verb.callback([&] { status = run_texture(arguments); });
 }
 
+void add_morph(CLI::App& app, MorphArguments& arguments, int& status) {
+  CLI::App& verb =
+      *app.add_subcommand("morph", "from one mesh to another of the same connectivity, in frames or a GLB");
+  add_input(verb, arguments.common, "FROM");
+  verb.add_option("TO", arguments.target, "mesh file, with the same faces or with --resample")->required();
+  add_output(verb, arguments.common);
+  add_surface(verb, arguments.common);
+  CLI::Option* frames = verb.add_option("--frames", arguments.frames,
+                                        "so many files, NAME-000, NAME-001, ...; 11 if not given. In a .glb "
+                                        "key frames of one animation, 24")
+                            ->check(CLI::Range(2, 100000));
+  verb.add_option("--at", arguments.at, "one file: how it is at this time; 0 is FROM, 1 is TO")
+      ->check(CLI::Range(0.0, 1.0))
+      ->option_text("0..1")
+      ->excludes(frames);
+  add_choice(verb, "--order", arguments.options.order, kOrders,
+             "what moves first: the overall shape, or the detail; low-first if not given");
+  verb.add_option(
+          "--stages", arguments.options.stages,
+          "how far overall shape and detail are apart in time; each takes four times the work; 0: straight lines")
+      ->check(CLI::Range(0, 8))
+      ->capture_default_str();
+  verb.add_option("--terms", arguments.options.m,
+                  "terms of the mesh series after the first in a smoothing; Lai and Cheng's m")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  verb.add_option("--rho", arguments.rho, "Lai and Cheng's own sequence, which comes near to TO so fast")
+      ->check(CLI::Range(1e-6, 1.0))
+      ->option_text("0..1");
+  verb.add_flag_callback(
+      "--no-align", [&] { arguments.align = false; }, "with --rho: do not lay the centroids on each other first");
+  verb.add_option("--seconds", arguments.seconds, "how long a .glb's animation is")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  verb.add_option("--levels", arguments.levels,
+                  "refinement of a .glb's surface; 3 if not given, fewer for a large mesh")
+      ->check(CLI::Range(0, 12));
+  verb.add_flag("--resample", arguments.resample, "give TO's surface the faces of FROM first; both must lie close");
+  add_picture(verb, arguments.picture);
+  verb.callback([&] { status = run_morph(arguments); });
+}
+
 void add_distance(CLI::App& app, DistanceArguments& arguments, int& status) {
   CLI::App& verb = *app.add_subcommand("distance", "how far points lie from the limit surface of a mesh");
   verb.add_option("SCAN", arguments.scan, "its vertices are measured: .obj .ply .off .stl .xyz")->required();
@@ -504,6 +549,7 @@ int run(int argc, char** argv) {
   add_denoise(app, verbs.denoise, status);
   add_sharpen(app, verbs.sharpen, status);
   add_bands(app, verbs.bands, status);
+  add_morph(app, verbs.morph, status);
   add_repair(app, verbs.repair, status);
   CLI::App& info = *app.add_subcommand("info", "what a mesh is made of, and whether a surface can be made of it");
   add_input(info, verbs.info);

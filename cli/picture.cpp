@@ -164,16 +164,6 @@ Scene scene_of(const Subject& subject, Coloring coloring, bool quiet) {
   return scene;
 }
 
-/// name.png becomes name-007.png.
-std::string numbered(const std::string& path, std::size_t number) {
-  const std::size_t dot = path.find_last_of('.');
-  const std::size_t slash = path.find_last_of('/');
-  const bool has_type = dot != std::string::npos && (slash == std::string::npos || dot > slash);
-  const std::string digits = std::to_string(number);
-  const std::string part = "-" + std::string(3 - std::min<std::size_t>(3, digits.size()), '0') + digits;
-  return has_type ? path.substr(0, dot) + part + path.substr(dot) : path + part;
-}
-
 /// One panel of every picture.
 struct Shot {
   const Scene* scene;

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "batten/mesh/primitives.h"
 #include "batten/refine/refined_mesh.h"
@@ -41,6 +42,12 @@ std::vector<Model> all_models() {
     model.mesh.points = (model.mesh.points * grain).array().round() / grain + 0.0;
   }
   return models;
+}
+
+std::vector<Model> morph_models() {
+  Mesh ball = ball_of(creature(), 3.0);
+  ball.points = (ball.points * 1e4).array().round() / 1e4 + 0.0;
+  return {{"creature-ball", std::move(ball)}};
 }
 
 std::vector<Model> broken_models() {

@@ -21,6 +21,9 @@ Mesh creature();    ///< a body, four legs, a head with a snout and ears, a tail
 /// The bracket refined twice, its creases untold, with noise: what a scanner makes of it.
 Mesh bracket_scan();
 
+/// The same faces around a sphere, evenly spread as far as they can be: what a closed mesh of genus 0 morphs into.
+Mesh ball_of(const Mesh& mesh, double radius);
+
 /// The tripod as a bad export may leave it: legs that share no vertices, one inside out; a fin on another; a face
 /// twice, a face without area, a vertex without a face.
 Mesh broken_tripod(const Mesh& tripod);
@@ -32,6 +35,9 @@ struct Model {
 
 /// All of them and the regular solids, with coordinates rounded so that files stay small.
 std::vector<Model> all_models();
+
+/// Other shapes of the same faces, for `batten morph`.
+std::vector<Model> morph_models();
 
 /// Those that no surface can be made of, for `batten repair`.
 std::vector<Model> broken_models();

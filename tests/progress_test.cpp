@@ -6,6 +6,8 @@
 #include "batten/expand/bands.h"
 #include "batten/expand/denoise.h"
 #include "batten/expand/mesh_series.h"
+#include "batten/expand/morph_surface.h"
+#include "batten/expand/resample.h"
 #include "batten/expand/sharpen.h"
 #include "batten/expand/texture.h"
 #include "batten/interpolate/interpolator.h"
@@ -89,6 +91,28 @@ std::vector<Named> operations(const io_tests::TemporaryFolder& folder) {
        }},
       {"solve", [](const Progress& progress) { interpolator.solve(mesh.points, progress); }},
       {"interpolate", [](const Progress& progress) { interpolate(mesh, {}, progress); }},
+      {"morph",
+       [](const Progress& progress) {
+         static const MeshSeries series(topology, scheme);
+         Morph(series, mesh.points, 2.0 * mesh.points, {1, 2}, progress);
+       }},
+      {"morph sequence",
+       [](const Progress& progress) {
+         static const MeshSeries series(topology, scheme);
+         morph_sequence(series, mesh.points, 2.0 * mesh.points, {}, progress);
+       }},
+      {"morph surface",
+       [](const Progress& progress) {
+         static const MeshSeries series(topology, scheme);
+         static const Morph morph(series, mesh.points, 2.0 * mesh.points, {1, 1});
+         morph_surface(topology, scheme, mesh, morph, 0, 2, 1.0, progress);
+       }},
+      {"resample",
+       [](const Progress& progress) {
+         static const Mesh other = torus(40, 30);
+         static const Topology target(other);
+         resample(target, scheme, 1.01 * other.points, target, scheme, other.points, 0.25, progress);
+       }},
       {"texture", [](const Progress& progress) {
          textured_surface(topology, scheme, mesh, preset_texture(TexturePreset::Clouds), {1}, progress);
        }}};

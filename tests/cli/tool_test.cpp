@@ -206,6 +206,39 @@ TEST_F(Tool, DrawsAllTexturesSideBySide) {
   EXPECT_EQ(png_shape(path("g.png")), (std::array<int, 3>{500, 100, 3}));
 }
 
+TEST_F(Tool, MorphsFromOneMeshToTheOther) {
+  const std::string ends = kModels + "creature.obj " + kModels + "creature-ball.obj ";
+  const Outcome result = run("morph " + ends + "-o f.ply --frames 3 --report r.json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(read_mesh(path("f-000.ply")).points, read_mesh(kModels + "creature.obj").points);
+  EXPECT_EQ(read_mesh(path("f-002.ply")).points, read_mesh(kModels + "creature-ball.obj").points);
+  const auto report = nlohmann::json::parse(text_of(path("r.json")));
+  ASSERT_EQ(report["frames"].size(), 3U);
+  EXPECT_EQ(report["frames"][2]["rms_to_end"], 0.0);
+  EXPECT_GT(report["frames"][1]["rms_to_end"], 0.0);
+  ASSERT_EQ(run("morph " + ends + "-o at.ply --at 0.5 --quiet").status, 0);
+  EXPECT_EQ(text_of(path("at.ply")), text_of(path("f-001.ply")));
+  ASSERT_EQ(run("morph " + ends + "-o s.ply --rho 0.5 --frames 2 --picture s.png --width 200 --samples 1").status, 0);
+  EXPECT_EQ(png_shape(path("s.png")), (std::array<int, 3>{200, 75, 3}));
+  EXPECT_EQ(run("morph " + ends + "-o m.glb --levels 1").status, 0);
+  EXPECT_EQ(text_of(path("m.glb")).compare(0, 4, "glTF"), 0);
+}
+
+TEST_F(Tool, SaysWhatAMorphNeeds) {
+  const std::string creature = "morph " + kModels + "creature.obj ";
+  const Outcome other = run(creature + kModels + "tripod.obj -o m.ply");
+  EXPECT_EQ(other.status, 1);
+  EXPECT_NE(other.err.find("602 vertices"), std::string::npos) << other.err;
+  EXPECT_NE(other.err.find("--resample"), std::string::npos) << other.err;
+  const Outcome far = run(creature + kModels + "torus-knot.obj -o m.ply --resample");
+  EXPECT_EQ(far.status, 1);
+  EXPECT_NE(far.err.find("from the other surface"), std::string::npos) << far.err;
+  const Outcome both = run(creature + kModels + "creature-ball.obj -o m.glb --at 0.5");
+  EXPECT_EQ(both.status, 1);
+  EXPECT_NE(both.err.find("not an animation"), std::string::npos) << both.err;
+  EXPECT_EQ(run(creature + kModels + "creature-ball.obj --at 0.5 --frames 3").status, 2);
+}
+
 TEST_F(Tool, RefusesColoursAndPresetsThatAreNone) {
   const std::string command = "texture " + kModels + "cube.obj -o x.ply ";
   EXPECT_EQ(run(command + "--preset leather").status, 2);

@@ -13,6 +13,7 @@
 
 // The generator is a program of its own; its sources without main are small enough to be part of this test.
 #include "../../models/all_models.cpp"
+#include "../../models/ball.cpp"
 #include "../../models/blocks.cpp"
 #include "../../models/broken.cpp"
 #include "../../models/field.cpp"
@@ -118,6 +119,21 @@ TEST(Models, CreatureIsMirrored) {
   }
 }
 
+TEST(Models, TheBallHasTheCreaturesFacesAndNoneIsTurnedOver) {
+  const Mesh ball = models::morph_models().at(0).mesh;
+  const Mesh& creature = model("creature");
+  EXPECT_EQ(ball.face_vertices, creature.face_vertices);
+  const Eigen::RowVector3d centre = creature.points.colwise().mean();
+  const auto at = [&](Index corner) {
+    return Eigen::RowVector3d(ball.points.row(ball.face_vertices[corner]) - centre);
+  };
+  for (Index f = 0; f < ball.face_count(); ++f) {
+    for (Index k = 0; k < 4; ++k) EXPECT_NEAR(at(4 * f + k).norm(), 3.0, 2e-4);
+    const Eigen::RowVector3d across = at(4 * f + 2) - at(4 * f);
+    EXPECT_GT(across.cross(Eigen::RowVector3d(at(4 * f + 3) - at(4 * f + 1))).dot(at(4 * f)), 0.0);
+  }
+}
+
 TEST(Models, TheBrokenTripodIsMendedIntoTheTripod) {
   const Mesh broken = models::broken_models().at(0).mesh;
   const RepairResult result = repair(broken);
@@ -138,6 +154,7 @@ TEST(Models, TheBrokenTripodIsMendedIntoTheTripod) {
 TEST(Models, FilesAreWhatTheGeneratorMakes) {
   std::vector<models::Model> all = made();
   all.push_back(models::broken_models().at(0));
+  all.push_back(models::morph_models().at(0));
   for (const models::Model& expected : all) {
     const Mesh file = read_mesh(std::string(BATTEN_SOURCE_DIR) + "/models/" + expected.name + ".obj");
     ASSERT_EQ(file.vertex_count(), expected.mesh.vertex_count()) << expected.name;

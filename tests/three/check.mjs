@@ -4,7 +4,7 @@ import { readFileSync } from 'node:fs';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { USDLoader } from 'three/addons/loaders/USDLoader.js';
 import { USDAParser } from 'three/addons/loaders/usd/USDAParser.js';
-import { Vector3 } from 'three';
+import { AnimationMixer, Vector3 } from 'three';
 
 function readObj(path) {
   const lines = readFileSync(path, 'utf8').split('\n').map((line) => line.split(' '));
@@ -87,9 +87,42 @@ async function checkGlb(path, obj) {
   }
 }
 
+/// Played to a time, the vertices and normals are those of the surface at that time.
+async function checkMorph(folder, times) {
+  const bytes = readFileSync(`${folder}/morph.glb`);
+  const gltf = await new GLTFLoader().parseAsync(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length), '');
+  const mesh = theMesh(gltf.scene);
+  assert.equal(gltf.animations.length, 1);
+  assert.equal(gltf.animations[0].duration, 2);
+  const mixer = new AnimationMixer(gltf.scene);
+  const action = mixer.clipAction(gltf.animations[0]).play();
+  action.clampWhenFinished = true;
+  action.setLoop(2200, 1);  // LoopOnce
+  for (const time of times) {
+    mixer.setTime(2 * time);
+    const obj = readObj(`${folder}/morph-${time}.obj`);
+    const theirs = usedPoints(obj);
+    const index = mesh.geometry.index;
+    const corners = obj.faces.flatMap((f) => f.slice(2).flatMap((v, i) => [f[0], f[i + 1], v]));
+    assert.equal(index.count, corners.length);
+    // Triangles may be cut along either diagonal; so every drawn vertex is looked for among the surface's.
+    const known = new Set(theirs.map((p) => p.map((x) => Math.round(x * 1e4)).join()));
+    let missed = 0;
+    for (let i = 0; i < mesh.geometry.attributes.position.count; ++i) {
+      const at = mesh.getVertexPosition(i, new Vector3()).applyMatrix4(mesh.matrixWorld);
+      const near = [0, 1, -1].some((a) => [0, 1, -1].some((b) => [0, 1, -1].some((c) =>
+        known.has([at.x, at.y, at.z].map((x, k) => Math.round(x * 1e4) + [a, b, c][k]).join()))));
+      if (!near) ++missed;
+    }
+    assert.equal(missed, 0, `${missed} vertices off the surface at ${time}`);
+  }
+  console.log('morph: three.js plays the animation through the surfaces');
+}
+
 const [folder, ...names] = process.argv.slice(2);
 for (const name of names) {
   checkUsda(`${folder}/${name}.usda`, readObj(`${folder}/${name}.obj`));
   await checkGlb(`${folder}/${name}.glb`, readObj(`${folder}/${name}-surface.obj`));
   console.log(`${name}: three.js reads the control mesh from USDA and the surface from GLB`);
 }
+await checkMorph(folder, [0, 0.5, 0.75, 1]);

@@ -2,6 +2,7 @@
 #pragma once
 #include "batten/io/source.h"
 #include "batten/mesh/mesh.h"
+#include "batten/mesh/morph_targets.h"
 #include "batten/output.h"
 
 namespace batten::io {
@@ -20,8 +21,8 @@ void write_ply(OutputFile& file, const Mesh& mesh, Encoding encoding);
 void write_off(OutputFile& file, const Mesh& mesh);
 void write_stl(OutputFile& file, const Mesh& mesh, Encoding encoding);
 void write_xyz(OutputFile& file, const Mesh& mesh);
-/// In builds with tinygltf (BATTEN_WITH_GLTF).
-void write_glb(OutputFile& file, const Mesh& mesh);
+/// In builds with tinygltf (BATTEN_WITH_GLTF). targets: null, or what animation.h checked.
+void write_glb(OutputFile& file, const Mesh& mesh, const MorphTargets* targets = nullptr);
 void write_usda(OutputFile& file, const Mesh& mesh);
 
 }  // namespace batten::io

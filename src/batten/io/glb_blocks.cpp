@@ -16,21 +16,33 @@ unsigned char* GlbBlocks::add_block(std::size_t bytes, int target, tinygltf::Acc
   return data.data() + view.byteOffset;
 }
 
-void GlbBlocks::add_bounds(int accessor) {
+int GlbBlocks::add_numbers(const double* numbers, std::ptrdiff_t count) {
+  tinygltf::Accessor accessor;
+  accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
+  accessor.type = TINYGLTF_TYPE_SCALAR;
+  accessor.count = static_cast<std::size_t>(count);
+  unsigned char* target = add_block(accessor.count * sizeof(float), 0, accessor);
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    const auto number = static_cast<float>(numbers[i]);
+    std::memcpy(target + i * std::ptrdiff_t{sizeof(float)}, &number, sizeof(number));
+  }
+  return static_cast<int>(model_.accessors.size()) - 1;
+}
+
+void GlbBlocks::add_bounds(int accessor, int components) {
   tinygltf::Accessor& bounded = model_.accessors[accessor];
   const unsigned char* bytes = model_.buffers[0].data.data() + model_.bufferViews[bounded.bufferView].byteOffset;
-  Eigen::Array3f low = Eigen::Array3f::Constant(std::numeric_limits<float>::max());
-  Eigen::Array3f high = -low;
+  Eigen::ArrayXf low = Eigen::ArrayXf::Constant(components, std::numeric_limits<float>::max());
+  Eigen::ArrayXf high = -low;
+  Eigen::ArrayXf point(components);
+  const std::size_t size = static_cast<std::size_t>(components) * sizeof(float);
   for (std::size_t i = 0; i < bounded.count; ++i) {
-    Eigen::Array3f point;
-    std::memcpy(point.data(), bytes + i * sizeof(point), sizeof(point));
+    std::memcpy(point.data(), bytes + i * size, size);
     low = low.min(point);
     high = high.max(point);
   }
-  for (int k = 0; k < 3; ++k) {
-    bounded.minValues.push_back(low[k]);
-    bounded.maxValues.push_back(high[k]);
-  }
+  bounded.minValues.assign(low.begin(), low.end());
+  bounded.maxValues.assign(high.begin(), high.end());
 }
 
 }  // namespace batten::io

@@ -45,6 +45,9 @@ class GlbBlocks {
     return static_cast<int>(model_.accessors.size()) - 1;
   }
 
+  /// One after the other, as floats, for animations. Returns the accessor's index.
+  int add_numbers(const double* numbers, std::ptrdiff_t count);
+
   /// fill(target) writes `count` indices of the given type.
   template <typename Index, typename Fill>
   int add_indices(std::size_t count, const Fill& fill) {
@@ -61,10 +64,11 @@ class GlbBlocks {
     return static_cast<int>(model_.accessors.size()) - 1;
   }
 
-  /// The bounds of an accessor of three floats, as written.
-  void add_bounds(int accessor);
+  /// The bounds of an accessor of `components` floats, as written.
+  void add_bounds(int accessor, int components = 3);
 
  private:
+  /// target: what a graphics card does with it, or 0.
   unsigned char* add_block(std::size_t bytes, int target, tinygltf::Accessor accessor);
 
   tinygltf::Model& model_;

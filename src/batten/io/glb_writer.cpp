@@ -48,8 +48,9 @@ double linear_from_srgb(double value) {
 /// The model that tinygltf writes: one mesh, one primitive a material, all with the same vertices.
 class SurfaceModel {
  public:
-  SurfaceModel(const std::string& name, const Mesh& mesh)
+  SurfaceModel(const std::string& name, const Mesh& mesh, const MorphTargets* morph)
       : mesh_(mesh),
+        morph_(morph),
         hidden_(hidden_faces(mesh)),
         frame_(float_frame(name, mesh.points)),
         uv_(corner_list(mesh, "uv")),
@@ -64,6 +65,7 @@ class SurfaceModel {
     const std::vector<FaceSet> sets = faces_by_material(mesh);
     GlbBlocks blocks(name, model_, byte_count() + 4 * sets.size());
     const std::map<std::string, int> attributes = add_attributes(blocks);
+    const std::vector<std::map<std::string, int>> targets = add_targets(blocks);
     model_.meshes.emplace_back();
     model_.meshes[0].name = "surface";
     for (const FaceSet& set : sets) {
@@ -72,6 +74,7 @@ class SurfaceModel {
       tinygltf::Primitive primitive;
       primitive.mode = TINYGLTF_MODE_TRIANGLES;
       primitive.attributes = attributes;
+      primitive.targets = targets;
       primitive.material = add_material(set.name);
       const auto fill = [&](const auto& put) { put_triangles(set, triangles, put); };
       const std::size_t count = 3 * static_cast<std::size_t>(triangles.back());
@@ -80,6 +83,7 @@ class SurfaceModel {
       model_.meshes[0].primitives.push_back(std::move(primitive));
     }
     add_scene();
+    if (morph_ != nullptr) add_animation(blocks);
   }
 
   const tinygltf::Model& model() const { return model_; }
@@ -93,7 +97,12 @@ class SurfaceModel {
     const std::ptrdiff_t floats =
         6 + (uv_.attribute != nullptr ? 2 : 0) + (color_.attribute != nullptr ? color_.attribute->values.cols() : 0);
     const std::size_t triangles = mesh_.face_vertices.size() - 2 * static_cast<std::size_t>(mesh_.face_count());
-    return static_cast<std::size_t>(floats * vertex_count()) * sizeof(float) +
+    std::size_t moving = 0;
+    if (morph_ != nullptr) {
+      moving = 3 * (morph_->displacements.size() + morph_->normals.size()) * static_cast<std::size_t>(vertex_count()) +
+               morph_->times.size() + static_cast<std::size_t>(morph_->weights.size());
+    }
+    return (static_cast<std::size_t>(floats * vertex_count()) + moving) * sizeof(float) +
            triangles * 3 * (short_indices() ? sizeof(std::uint16_t) : sizeof(std::uint32_t));
   }
 
@@ -136,6 +145,47 @@ class SurfaceModel {
           blocks.add_floats<3>(vertex_count(), [&](std::ptrdiff_t i) { return linear_color<3>(corner(i)); });
     }
     return attributes;
+  }
+
+  std::vector<std::map<std::string, int>> add_targets(GlbBlocks& blocks) const {
+    std::vector<std::map<std::string, int>> targets;
+    if (morph_ == nullptr) return targets;
+    for (std::size_t i = 0; i < morph_->displacements.size(); ++i) {
+      targets.emplace_back();
+      const Points& moved = morph_->displacements[i];
+      targets[i]["POSITION"] = blocks.add_floats<3>(vertex_count(), [&](std::ptrdiff_t v) {
+        return Eigen::RowVector3d(moved.row(mesh_.face_vertices[corners_.corner_of_vertex[v]]));
+      });
+      blocks.add_bounds(targets[i]["POSITION"]);
+      if (morph_->normals.empty()) continue;
+      const Values& turned = morph_->normals[i];
+      const bool at_vertices = turned.rows() == mesh_.vertex_count();
+      targets[i]["NORMAL"] = blocks.add_floats<3>(vertex_count(), [&](std::ptrdiff_t v) {
+        const Index corner = corners_.corner_of_vertex[v];
+        return Eigen::RowVector3d(turned.row(at_vertices ? mesh_.face_vertices[corner] : corner));
+      });
+    }
+    return targets;
+  }
+
+  /// The weights at the times, all targets of a time together.
+  void add_animation(GlbBlocks& blocks) {
+    const std::vector<double>& times = morph_->times;
+    const Values& weights = morph_->weights;
+    tinygltf::Animation animation;
+    animation.name = "morph";
+    animation.samplers.emplace_back();
+    animation.samplers[0].interpolation = "LINEAR";
+    animation.samplers[0].input = blocks.add_numbers(times.data(), static_cast<std::ptrdiff_t>(times.size()));
+    blocks.add_bounds(animation.samplers[0].input, 1);
+    animation.samplers[0].output = blocks.add_numbers(weights.data(), weights.size());
+    animation.channels.emplace_back();
+    animation.channels[0].sampler = 0;
+    animation.channels[0].target_node = 0;
+    animation.channels[0].target_path = "weights";
+    model_.animations.push_back(animation);
+    const Eigen::RowVectorXd first = weights.row(0);
+    model_.meshes[0].weights.assign(first.begin(), first.end());
   }
 
   int add_material(const std::string& name) {
@@ -200,6 +250,7 @@ class SurfaceModel {
   }
 
   const Mesh& mesh_;
+  const MorphTargets* morph_;  ///< or null
   Buffer<std::uint8_t> hidden_;
   FloatFrame frame_;
   CornerList uv_;
@@ -211,8 +262,8 @@ class SurfaceModel {
 
 }  // namespace
 
-void write_glb(OutputFile& file, const Mesh& mesh) {
-  const SurfaceModel surface(file.name(), mesh);
+void write_glb(OutputFile& file, const Mesh& mesh, const MorphTargets* targets) {
+  const SurfaceModel surface(file.name(), mesh, targets);
   FileStream bytes(file);
   std::ostream stream(&bytes);
   stream.exceptions(std::ios::badbit);

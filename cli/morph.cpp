@@ -1,0 +1,236 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "batten/error.h"
+#include "batten/expand/morph_surface.h"
+#include "batten/expand/resample.h"
+#include "batten/io/animation.h"
+#include "batten/io/io.h"
+#include "batten/parallel/parallel.h"
+#include "cli/common.h"
+#include "cli/picture.h"
+
+namespace batten::cli {
+namespace {
+
+/// One shape on the way.
+struct Frame {
+  double time;  ///< in [0, 1]; of the paper's sequence the share of its steps
+  Values points;
+};
+
+/// What all parts of a run need.
+struct Run {
+  const MorphArguments& arguments;
+  const Mesh& mesh;  ///< the first one: connectivity, tags, attributes
+  const Topology& topology;
+  Scheme scheme;
+  bool animated;  ///< a GLB
+  int frames;
+};
+
+bool is_glb(const CommonArguments& common) {
+  return !common.output.empty() && file_format(common.output, common.output_format) == "glb";
+}
+
+Mesh read_target(const MorphArguments& arguments) {
+  CommonArguments common = arguments.common;
+  common.input = arguments.target;
+  return read_input(common);
+}
+
+/// The second mesh's points for the first one's vertices.
+Values target_points(const Run& run, const Mesh& target, Table& table, nlohmann::ordered_json& report) {
+  const bool quiet = run.arguments.common.quiet;
+  if (!run.arguments.resample) {
+    try {
+      require_same_connectivity(run.mesh, target);
+    } catch (const Error& error) {
+      throw Error(error.code(), std::string(error.what()) +
+                                    ". Where both surfaces lie close to each other, --resample "
+                                    "gives the second one the faces of the first");
+    }
+    return target.points;
+  }
+  const Topology topology(target);
+  ProgressBar bar("resampling", quiet);
+  constexpr double kReach = 0.25;
+  const Resampled found = resample(run.topology, run.scheme, run.mesh.points, topology,
+                                   scheme_for(run.arguments.common, target), target.points, kReach, bar.callback());
+  std::string text = fmt::format("at most {:.4g} away at vertex {}, mean {:.4g}", found.max_distance,
+                                 found.farthest_vertex, found.mean_distance);
+  if (found.folded_faces > 0) text += fmt::format("; {} turned over", count_of(found.folded_faces, "face", "faces"));
+  table.add("resampled", text);
+  report["resampled"] = {{"max_distance", found.max_distance},
+                         {"mean_distance", found.mean_distance},
+                         {"farthest_vertex", found.farthest_vertex},
+                         {"folded_faces", found.folded_faces},
+                         {"max_error", found.max_error}};
+  return found.control;
+}
+
+std::vector<Frame> frames_of(const Run& run, const Morph& morph) {
+  std::vector<Frame> frames;
+  if (run.arguments.at) {
+    frames.push_back({*run.arguments.at, morph.at(*run.arguments.at)});
+    return frames;
+  }
+  for (int i = 0; i < run.frames; ++i) {
+    const double time = static_cast<double>(i) / (run.frames - 1);
+    frames.push_back({time, morph.at(time)});
+  }
+  return frames;
+}
+
+std::vector<Frame> sequence_frames(const Run& run, const MeshSeries& series, const Values& target) {
+  const MorphArguments& arguments = run.arguments;
+  const int steps = run.frames - 1;
+  const MorphSequenceOptions options{arguments.options.m, *arguments.rho, steps, arguments.align};
+  std::vector<Values> sequence = morph_sequence(series, run.mesh.points, target, options,
+                                                ProgressBar("morphing", arguments.common.quiet).callback());
+  std::vector<Frame> frames;
+  for (int i = 0; i <= steps; ++i) {
+    frames.push_back({static_cast<double>(i) / steps, std::move(sequence[static_cast<std::size_t>(i)])});
+  }
+  return frames;
+}
+
+Mesh mesh_at(const Run& run, const Frame& frame) {
+  Mesh mesh = run.mesh;
+  mesh.points = frame.points;
+  // Normals were the first shape's.
+  auto& all = mesh.attributes;
+  all.erase(std::remove_if(all.begin(), all.end(), [](const Attribute& a) { return a.name == "normal"; }), all.end());
+  return mesh;
+}
+
+void write_frames(const Run& run, const std::vector<Frame>& frames) {
+  CommonArguments common = run.arguments.common;
+  for (std::size_t i = 0; i < frames.size() && !run.arguments.common.output.empty(); ++i) {
+    if (!run.arguments.at) common.output = numbered(run.arguments.common.output, i);
+    write_output(common, mesh_at(run, frames[i]));
+  }
+}
+
+void write_animated(const Run& run, const Morph& morph) {
+  const CommonArguments& common = run.arguments.common;
+  const int levels = run.arguments.levels >= 0 ? run.arguments.levels : std::min(3, picture_levels(run.topology));
+  ProgressBar bar("refining", common.quiet);
+  const MorphSurface surface = morph_surface(run.topology, run.scheme, run.mesh, morph, levels, run.frames,
+                                             run.arguments.seconds, bar.callback());
+  ProgressBar writing("writing", common.quiet);
+  write_animation(common.output, surface.mesh, surface.targets, common.output_format, writing.callback());
+}
+
+/// At most six of the frames, the ends among them.
+void draw_frames(const Run& run, const std::vector<Frame>& frames) {
+  constexpr std::size_t kPanels = 6;
+  std::vector<Subject> subjects;
+  const std::size_t panels = std::min(frames.size(), kPanels);
+  for (std::size_t i = 0; i < panels; ++i) {
+    const Frame& frame = frames[panels > 1 ? i * (frames.size() - 1) / (panels - 1) : 0];
+    Subject subject;
+    subject.control = mesh_at(run, frame);
+    subject.scheme = run.scheme;
+    subject.after_caption = fmt::format("{:.2g}", frame.time);
+    subjects.push_back(std::move(subject));
+  }
+  draw_row(subjects, run.arguments.picture, run.arguments.common.quiet);
+}
+
+void check_usage(const Run& run) {
+  if (run.animated && (run.arguments.rho || run.arguments.at)) {
+    throw Error(ErrorCode::BadArgument,
+                std::string(run.arguments.rho ? "--rho" : "--at") +
+                    " writes shapes, not an animation: name an .obj or .ply instead of the .glb");
+  }
+  if (run.arguments.rho && run.arguments.at) {
+    throw Error(ErrorCode::BadArgument, "--rho gives a sequence of frames; --at belongs to the morph without it");
+  }
+  if (run.arguments.common.output == "-" && !run.animated && !run.arguments.at) {
+    throw Error(ErrorCode::BadArgument, "standard output takes one file: ask for one shape by --at, or for a .glb");
+  }
+}
+
+std::string what_of(const MorphArguments& arguments) {
+  if (arguments.rho) {
+    return fmt::format("Lai and Cheng's sequence, rho {:g}, m {}{}", *arguments.rho, arguments.options.m,
+                       arguments.align ? ", centroids aligned" : "");
+  }
+  return fmt::format("{} first, {}, m {}", arguments.options.order == MorphOrder::LowFirst ? "overall shape" : "detail",
+                     count_of(arguments.options.stages, "stage", "stages"), arguments.options.m);
+}
+
+void add_frames(const Run& run, const std::vector<Frame>& frames, const Values& end, nlohmann::ordered_json& report) {
+  report["scheme"] = scheme_json(run.scheme);
+  report["order"] = run.arguments.options.order == MorphOrder::LowFirst ? "low-first" : "low-last";
+  report["stages"] = run.arguments.options.stages;
+  report["m"] = run.arguments.options.m;
+  if (run.arguments.rho) report["rho"] = *run.arguments.rho;
+  for (const Frame& frame : frames) {
+    report["frames"].push_back(
+        {{"time", frame.time},
+         {"rms_from_start", (frame.points - run.mesh.points).norm() / std::sqrt(run.mesh.vertex_count())},
+         {"rms_to_end", (frame.points - end).norm() / std::sqrt(run.mesh.vertex_count())}});
+  }
+}
+
+}  // namespace
+
+int run_morph(const MorphArguments& arguments) {
+  const CommonArguments& common = arguments.common;
+  const ThreadLimit limit(common.threads);
+  Stages stages;
+  Table table;
+  nlohmann::ordered_json report{
+      {"verb", "morph"}, {"input", common.input}, {"target", arguments.target}, {"output", common.output}};
+  const Mesh mesh = read_input(common, &report["repairs"]);
+  const Mesh target = read_target(arguments);
+  stages.finish("read");
+  const Topology topology(mesh, ProgressBar("connecting", common.quiet).callback());
+  stages.finish("topology");
+  Run run{arguments, mesh, topology, scheme_for(common, mesh), is_glb(common), arguments.frames};
+  if (run.frames < 0) run.frames = run.animated ? 24 : 11;
+  check_usage(run);
+  table.add("mesh", mesh_text(topology));
+  table.add("scheme", scheme_text(run.scheme));
+  const Values end = target_points(run, target, table, report);
+  const Values moved = end - mesh.points;
+  stages.finish("match");
+  const MeshSeries series(topology, run.scheme, {}, ProgressBar("building", common.quiet).callback());
+  std::vector<Frame> frames;
+  if (arguments.rho) {
+    frames = sequence_frames(run, series, end);
+    stages.finish("morph");
+  } else {
+    const Morph morph(series, mesh.points, end, arguments.options, ProgressBar("morphing", common.quiet).callback());
+    frames = frames_of(run, morph);
+    stages.finish("morph");
+    if (run.animated) write_animated(run, morph);
+  }
+  if (!run.animated) write_frames(run, frames);
+  stages.finish("write");
+  if (!arguments.picture.path.empty()) {
+    draw_frames(run, frames);
+    stages.finish("picture");
+  }
+  const double largest = moved.rows() > 0 ? moved.rowwise().norm().maxCoeff() : 0.0;
+  table.add("morph", what_of(arguments));
+  table.add("moved", fmt::format("at most {:.4g} ({:.3g} of the diagonal)", largest,
+                                 largest / std::max(bounding_diagonal(mesh.points), 1e-300)));
+  if (!common.output.empty()) {
+    const std::string written = run.animated ? fmt::format("an animation of {:g} seconds", arguments.seconds)
+                                             : count_of(static_cast<std::int64_t>(frames.size()), "file", "files");
+    table.add("written", written);
+  }
+  table.add("time", stages.text());
+  table.print(common);
+  report["max_movement"] = largest;
+  add_frames(run, frames, end, report);
+  report["seconds"] = stages.json();
+  write_json(common.report, report);
+  return 0;
+}
+
+}  // namespace batten::cli

@@ -1,0 +1,17 @@
+/// \file A mesh that moves, to a file.
+#pragma once
+#include <string>
+
+#include "batten/mesh/morph_targets.h"
+#include "batten/types.h"
+
+namespace batten {
+
+/// GLB only: the mesh as write_mesh() writes it, with morph targets for positions and normals and an animation of their
+/// weights, linear between the times. A viewer plays it; a program that knows no animations shows the mesh at the first
+/// time. Throws what write_mesh throws, Error(UnknownFormat) for other file types, and Error(BadShape, BadArgument,
+/// NotFinite) for targets that do not fit the mesh or times that do not rise.
+void write_animation(const std::string& path, const Mesh& mesh, const MorphTargets& targets,
+                     const std::string& format = "", const Progress& progress = {});
+
+}  // namespace batten
