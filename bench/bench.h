@@ -77,6 +77,7 @@ std::string process_section();
 std::string file_section();
 std::string picture_section();
 std::string nearest_section();
+std::string series_section();
 
 /// In a process of its own: interpolates a refined mesh of at least so many vertices, then exits.
 int run_large(Index vertices);

@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
   }
   std::string page = "Threads: " + std::to_string(batten::thread_count()) + ". " + machine() + "\n";
   for (const auto& section : {topology_section, interpolation_section, growth_section, file_section, picture_section,
-                              nearest_section, process_section}) {
+                              nearest_section, series_section, process_section}) {
     page += section();
     std::fprintf(stderr, "%s", page.substr(page.rfind("\n## ")).c_str());
   }
