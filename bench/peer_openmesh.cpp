@@ -5,6 +5,7 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Subdivider/Uniform/CatmullClarkT.hh>
 #include <OpenMesh/Tools/Subdivider/Uniform/LoopT.hh>
+#include <OpenMesh/Tools/Subdivider/Uniform/ModifiedButterFlyT.hh>
 #endif
 
 namespace batten::bench {
@@ -48,6 +49,11 @@ std::vector<PeerWork> openmesh_refine(const Mesh& mesh, const Scheme& scheme, in
   if (scheme.kind == SchemeKind::Loop) {
     return {{"OpenMesh", [&mesh, levels] {
                refine<Triangles, OpenMesh::Subdivider::Uniform::LoopT<Triangles, float>>(mesh, levels);
+             }}};
+  }
+  if (scheme.kind == SchemeKind::ModifiedButterfly) {
+    return {{"OpenMesh", [&mesh, levels] {
+               refine<Triangles, OpenMesh::Subdivider::Uniform::ModifiedButterflyT<Triangles, float>>(mesh, levels);
              }}};
   }
   return {{"OpenMesh", [&mesh, levels] {

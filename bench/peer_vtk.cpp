@@ -1,6 +1,7 @@
 #include "bench/peers.h"
 
 #ifdef BATTEN_BENCH_VTK
+#include <vtkButterflySubdivisionFilter.h>
 #include <vtkCellArray.h>
 #include <vtkLoopSubdivisionFilter.h>
 #include <vtkNew.h>
@@ -12,27 +13,39 @@ namespace batten::bench {
 
 #ifdef BATTEN_BENCH_VTK
 
+namespace {
+
+template <typename Filter>
+void refine(const Mesh& mesh, int levels) {
+  vtkNew<vtkPoints> points;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    points->InsertNextPoint(mesh.points(v, 0), mesh.points(v, 1), mesh.points(v, 2));
+  }
+  vtkNew<vtkCellArray> faces;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const Index* corners = &mesh.face_vertices[mesh.face_offsets[f]];
+    const vtkIdType triangle[] = {corners[0], corners[1], corners[2]};
+    faces->InsertNextCell(3, triangle);
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetPolys(faces);
+  vtkNew<Filter> filter;
+  filter->SetInputData(data);
+  filter->SetNumberOfSubdivisions(levels);
+  filter->Update();
+}
+
+}  // namespace
+
 std::vector<PeerWork> vtk_refine(const Mesh& mesh, const Scheme& scheme, int levels) {
-  if (scheme.kind != SchemeKind::Loop) return {};
-  return {{"VTK", [&mesh, levels] {
-             vtkNew<vtkPoints> points;
-             for (Index v = 0; v < mesh.vertex_count(); ++v) {
-               points->InsertNextPoint(mesh.points(v, 0), mesh.points(v, 1), mesh.points(v, 2));
-             }
-             vtkNew<vtkCellArray> faces;
-             for (Index f = 0; f < mesh.face_count(); ++f) {
-               const Index* corners = &mesh.face_vertices[mesh.face_offsets[f]];
-               const vtkIdType triangle[] = {corners[0], corners[1], corners[2]};
-               faces->InsertNextCell(3, triangle);
-             }
-             vtkNew<vtkPolyData> data;
-             data->SetPoints(points);
-             data->SetPolys(faces);
-             vtkNew<vtkLoopSubdivisionFilter> filter;
-             filter->SetInputData(data);
-             filter->SetNumberOfSubdivisions(levels);
-             filter->Update();
-           }}};
+  if (scheme.kind == SchemeKind::Loop) {
+    return {{"VTK", [&mesh, levels] { refine<vtkLoopSubdivisionFilter>(mesh, levels); }}};
+  }
+  if (scheme.kind == SchemeKind::ModifiedButterfly) {
+    return {{"VTK", [&mesh, levels] { refine<vtkButterflySubdivisionFilter>(mesh, levels); }}};
+  }
+  return {};
 }
 
 #else

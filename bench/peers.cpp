@@ -1,5 +1,5 @@
-/// peers_bench [PAGE [jets]]: the tessellator, or jets, against other libraries on the same work, in turn, in one run.
-/// Writes its part of docs/performance.md.
+/// peers_bench [PAGE [jets|butterfly]]: the tessellator, jets, or Modified Butterfly, against other libraries on the
+/// same work, in turn, in one run. Writes its part of docs/performance.md.
 #include "bench/peers.h"
 
 #include <cstdio>
@@ -148,6 +148,34 @@ std::string jets_section() {
          table.text();
 }
 
+std::string butterfly_section() {
+  const int levels = 4;
+  const Mesh mesh = load({"spot", 0, levels});
+  Scheme loop;
+  loop.kind = SchemeKind::Loop;
+  Scheme butterfly;
+  butterfly.kind = SchemeKind::ModifiedButterfly;
+  const auto ours = [&](const Scheme& scheme) {
+    return [&mesh, scheme] { tessellate<float>(Topology(mesh), scheme, mesh.points, levels); };
+  };
+  std::vector<PeerWork> works{{"Batten, Modified Butterfly", ours(butterfly)}, {"Batten, Loop", ours(loop)}};
+  for (const auto& peers : {openmesh_refine(mesh, butterfly, levels), vtk_refine(mesh, butterfly, levels)}) {
+    for (const PeerWork& peer : peers) works.push_back({peer.name + ", Modified Butterfly", peer.work});
+  }
+  std::vector<std::function<void()>> calls;
+  for (const PeerWork& each : works) calls.push_back(each.work);
+  const std::vector<double> seconds = in_turn(calls, kRounds);
+  MarkdownTable table({"program", "ms", "of ours"});
+  for (std::size_t i = 0; i < works.size(); ++i) {
+    table.add({works[i].name, milliseconds(seconds[i]), number(seconds[i] / seconds[0], 3) + "x"});
+  }
+  return "spot, " + std::to_string(mesh.face_count()) + " triangles, to level 4, " +
+         number(256e-6 * mesh.face_count()) +
+         " million: from an index list in memory to points in floats and faces in fresh memory, in\nturn. OpenMesh and "
+         "VTK run on one thread, ours on all.\n\n" +
+         table.text();
+}
+
 std::string peers_section() {
   MarkdownTable fresh({"mesh", "scheme", "faces", "levels", "million faces out", "Batten, ms", "others, ms",
                        "peak memory, of the output: Batten, OpenSubdiv"});
@@ -179,14 +207,25 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "set BATTEN_DATA to the folder of the test data, whose meshes these figures are about\n");
     return 1;
   }
-  const bool jets = argc > 2 && std::string(argv[2]) == "jets";
+  const std::string which = argc > 2 ? argv[2] : "";
   const std::string tunables = std::getenv("GLIBC_TUNABLES") == nullptr ? "" : std::getenv("GLIBC_TUNABLES");
   const bool huge = tunables.find("hugetlb=1") != std::string::npos;
-  const std::string head = jets ? "## Jets of the limit surface beside OpenSubdiv's Bfr"
-                           : huge
-                               ? "## Refinement, with huge pages for everyone (GLIBC_TUNABLES=glibc.malloc.hugetlb=1)"
-                               : "## Refinement beside other libraries";
-  const std::string part = head + "\n\n" + machine() + "\n" + (jets ? jets_section() : peers_section()) + "\n";
+  std::string name = "peers";
+  std::string head = "## Refinement beside other libraries";
+  if (which == "jets") {
+    name = "peers, jets";
+    head = "## Jets of the limit surface beside OpenSubdiv's Bfr";
+  } else if (which == "butterfly") {
+    name = "peers, butterfly";
+    head = "## Modified Butterfly beside other libraries";
+  } else if (huge) {
+    name = "peers, huge pages";
+    head = "## Refinement, with huge pages for everyone (GLIBC_TUNABLES=glibc.malloc.hugetlb=1)";
+  }
+  const std::string section = which == "jets"        ? jets_section()
+                              : which == "butterfly" ? butterfly_section()
+                                                     : peers_section();
+  const std::string part = head + "\n\n" + machine() + "\n" + section + "\n";
   std::printf("%s", part.c_str());
-  if (argc > 1) write_part(argv[1], jets ? "peers, jets" : huge ? "peers, huge pages" : "peers", part);
+  if (argc > 1) write_part(argv[1], name, part);
 }

@@ -20,10 +20,11 @@ PeerWork opensubdiv_refine(const Mesh& mesh, const Scheme& scheme, int levels);
 /// Points again with connectivity kept: its PrimvarRefiner, and cascaded stencils on four floats a point.
 std::vector<PeerWork> opensubdiv_points(const Mesh& mesh, const Scheme& scheme, int levels);
 
-/// Empty where the library was not there at build time. Catmull-Clark without tags, or Loop.
+/// Empty where the library was not there at build time. Catmull-Clark without tags, Loop, or Modified
+/// Butterfly.
 std::vector<PeerWork> openmesh_refine(const Mesh& mesh, const Scheme& scheme, int levels);
 std::vector<PeerWork> cgal_refine(const Mesh& mesh, const Scheme& scheme, int levels);
-/// The same, Loop only.
+/// The same, Loop and Modified Butterfly (its filter repeats points where that has a boundary) only.
 std::vector<PeerWork> vtk_refine(const Mesh& mesh, const Scheme& scheme, int levels);
 
 class MarkdownTable;
