@@ -82,6 +82,7 @@ struct SubdivideArguments {
   PictureArguments picture;
   int levels = -1;  ///< -1: once, or for adaptive tessellation as often as a bound asks
   bool limit = false;
+  bool compare = false;         ///< schemes, instead of writing a mesh
   std::optional<Length> chord;  ///< one of these three: adaptive tessellation
   std::optional<Length> edge_length;
   std::optional<double> angle;
@@ -167,6 +168,8 @@ int run_interpolate(const InterpolateArguments& arguments);
 int run_subdivide(const SubdivideArguments& arguments);
 /// subdivide where a bound is given.
 int run_adaptive(const SubdivideArguments& arguments);
+/// subdivide --compare.
+int run_compare_schemes(const SubdivideArguments& arguments);
 int run_convert(const CommonArguments& arguments);
 int run_repair(const RepairArguments& arguments);
 int run_render(const RenderArguments& arguments);

@@ -382,6 +382,13 @@ void add_adaptive(CLI::App& verb, SubdivideArguments& arguments) {
       ->option_text("N");
 }
 
+/// Refuses options that have no meaning beside another one.
+void require_alone(const CLI::App& verb, const std::string& name, const std::vector<std::string>& others) {
+  for (const std::string& other : others) {
+    if (verb.count(other) > 0) throw CLI::ValidationError(name, "leaves nothing for " + other + " to do");
+  }
+}
+
 void add_subdivide(CLI::App& app, SubdivideArguments& arguments, int& status) {
   CLI::App& verb = *app.add_subcommand("subdivide", "refine a control mesh uniformly, or as far as a bound asks");
   add_input(verb, arguments.common);
@@ -391,8 +398,18 @@ void add_subdivide(CLI::App& app, SubdivideArguments& arguments, int& status) {
       ->check(CLI::Range(0, 16));
   verb.add_flag("--limit", arguments.limit, "then move the vertices to the limit surface, with its normals");
   add_adaptive(verb, arguments);
+  verb.add_flag("--compare", arguments.compare,
+                "measure how fair Butterfly, Modified Butterfly and the interpolated Loop and Catmull-Clark surfaces "
+                "of a triangle mesh are; --picture draws them side by side by their mean curvature");
   add_picture(verb, arguments.picture);
-  verb.callback([&] {
+  verb.callback([&verb, &arguments, &status] {
+    if (arguments.compare) {
+      require_alone(verb, "--compare",
+                    {"--output", "--scheme", "--tension", "--limit", "--chord", "--edge-length", "--angle", "--faces",
+                     "--max-faces"});
+      status = run_compare_schemes(arguments);
+      return;
+    }
     if (!arguments.adaptive() && (arguments.faces || arguments.max_faces)) {
       throw CLI::ValidationError(arguments.faces ? "--faces" : "--max-faces",
                                  "needs a bound: --chord, --edge-length or --angle");

@@ -26,6 +26,13 @@ int picture_levels(const Topology& topology) {
   return levels;
 }
 
+// Curvature has no bound at extraordinary points: a few numbers must not take the whole bar.
+static constexpr double kWild = 0.02;
+
+ScaleRequest mean_curvature_scale() {
+  return {"mean curvature", "1 / unit", ColorMap::Diverging, 0.0, false, false, kWild};
+}
+
 #ifdef BATTEN_WITH_RENDER
 
 namespace {
@@ -33,15 +40,13 @@ namespace {
 bool is_scalar(Coloring coloring) { return coloring != Coloring::None && coloring != Coloring::Zebra; }
 
 ScaleRequest scale_request(Coloring coloring, SchemeKind kind) {
-  // Curvature has no bound at extraordinary points: a few numbers must not take the whole bar.
-  constexpr double kWild = 0.02;
   switch (coloring) {
     case Coloring::Error:
       return {"error", "in the mesh's unit", ColorMap::Sequential, 0.0, true};
     case Coloring::Moved:
       return {"distance moved", "in the mesh's unit", ColorMap::Sequential, 0.0, false, false, kWild};
     case Coloring::Mean:
-      return {"mean curvature", "1 / unit", ColorMap::Diverging, 0.0, false, false, kWild};
+      return mean_curvature_scale();
     case Coloring::Gaussian:
       return {"Gaussian curvature", "1 / unit²", ColorMap::Diverging, 0.0, false, false, kWild};
     case Coloring::Valence:
@@ -243,6 +248,22 @@ void draw(const Subject& subject, const PictureArguments& arguments, bool quiet)
   draw_shots(shots, options, bar, arguments, quiet);
 }
 
+/// Gives the scenes with scalars one scale; returns it, if there are any.
+static std::optional<ColorScale> share_scale(std::vector<Scene>& scenes, const ScaleRequest& request) {
+  Eigen::Index count = 0;
+  for (const Scene& scene : scenes) count += scene.scalars.size();
+  if (count == 0) return std::nullopt;
+  Eigen::VectorXd all(count);
+  Eigen::Index begin = 0;
+  for (const Scene& scene : scenes) {
+    all.segment(begin, scene.scalars.size()) = scene.scalars;
+    begin += scene.scalars.size();
+  }
+  const ColorScale scale = fit_color_scale(all, request);
+  for (Scene& scene : scenes) scene.scale = scale;
+  return scale;
+}
+
 void draw_row(const std::vector<Subject>& subjects, const PictureArguments& arguments, bool quiet) {
   std::vector<Scene> scenes;
   scenes.reserve(subjects.size());
@@ -253,7 +274,13 @@ void draw_row(const std::vector<Subject>& subjects, const PictureArguments& argu
     shots.push_back({&scenes[i], subjects[i].after_caption,
                      arguments.coloring == Coloring::Zebra ? Shading::Zebra : Shading::Plain});
   }
-  draw_shots(shots, render_options(arguments, shots.size()), {}, arguments, quiet);
+  const RenderOptions options = render_options(arguments, shots.size());
+  Panel bar;
+  if (!subjects.empty() && subjects.back().numbers.size() > 0) {
+    const std::optional<ColorScale> scale = share_scale(scenes, subjects.back().numbers_scale);
+    if (scale) bar.picture = draw_color_bar(*scale, options.height, options.style);
+  }
+  draw_shots(shots, options, bar, arguments, quiet);
 }
 
 #else

@@ -30,7 +30,11 @@ int picture_levels(const Topology& topology);
 /// Draws and writes. Throws what the operators throw, and Error(NotAvailable) in a build without pictures.
 void draw(const Subject& subject, const PictureArguments& arguments, bool quiet);
 
-/// Several side by side, each with its after_caption, from one viewpoint; without colour bars.
+/// The request that --color mean makes.
+ScaleRequest mean_curvature_scale();
+
+/// Several side by side, each with its after_caption, from one viewpoint. Their numbers have one scale, that of the
+/// last subject's request over the numbers of all, and its bar; colourings have none.
 void draw_row(const std::vector<Subject>& subjects, const PictureArguments& arguments, bool quiet);
 
 }  // namespace batten::cli

@@ -27,8 +27,19 @@ Mesh bracket_scan() {
   return scan;
 }
 
+Mesh pyramid() {
+  Mesh mesh;
+  mesh.points.resize(5, 3);
+  mesh.points << -1.0, -1.0, 0.0, 1.0, -1.0, 0.0, 1.0, 1.0, 0.0, -1.0, 1.0, 0.0, 0.0, 0.0, 2.5;
+  for (Index i = 0; i < 4; ++i) mesh.add_face({i, (i + 1) % 4, 4});
+  mesh.add_face({0, 2, 1});
+  mesh.add_face({0, 3, 2});
+  return mesh;
+}
+
 std::vector<Model> all_models() {
-  std::vector<Model> models = {{"pipe-joint", pipe_joint()},   {"tripod", tripod()},
+  std::vector<Model> models = {{"pipe-joint", pipe_joint()},   {"coarse-joint", coarse_joint()},
+                               {"pyramid", pyramid()},         {"tripod", tripod()},
                                {"torus-knot", torus_knot()},   {"bracket", bracket()},
                                {"creature", creature()},       {"bracket-scan", bracket_scan()},
                                {"tetrahedron", tetrahedron()}, {"cube", cube()},

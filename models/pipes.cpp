@@ -44,22 +44,21 @@ Vector3d pipe_axis(int pipe) {
           static_cast<double>(kCosines[static_cast<std::size_t>((pipe + 3) % 4)]), 0.0};
 }
 
-}  // namespace
-
-Mesh pipe_joint() {
-  constexpr int kAround = 12;
-  constexpr int kRings = 5;
+/// `around` vertices around each pipe, an even number, and `rings` rings of quads along it.
+Mesh joint(int around, int rings) {
   constexpr double kLength = 3.2;
   const Field field = crossing_pipes;
+  const int half = around / 2;
   std::vector<Vector3d> points;
-  // Seams between neighbouring pipes: six vertices each, none on the line x = y = 0 where all four pipes meet.
-  std::array<std::array<Index, 6>, 4> seams;
-  const auto angle = [](int i) { return kTurn * (i + 0.5) / kAround; };
+  // Seams between neighbouring pipes: half a ring each, no vertex on the line x = y = 0 where all four pipes meet.
+  std::array<std::vector<Index>, 4> seams;
+  const auto angle = [&](int i) { return kTurn * (i + 0.5) / around; };
   for (int pipe = 0; pipe < 4; ++pipe) {
     const Vector3d between = pipe_axis(pipe) + pipe_axis(pipe + 1);
-    for (int i = 0; i < 6; ++i)
-      seams[static_cast<std::size_t>(pipe)][static_cast<std::size_t>(i)] = add_point(
-          points, cast(field, Vector3d::Zero(), std::sin(angle(i)) * between + std::cos(angle(i)) * Vector3d::UnitZ()));
+    for (int i = 0; i < half; ++i)
+      seams[static_cast<std::size_t>(pipe)].push_back(add_point(
+          points,
+          cast(field, Vector3d::Zero(), std::sin(angle(i)) * between + std::cos(angle(i)) * Vector3d::UnitZ())));
   }
   Mesh mesh;
   for (int pipe = 0; pipe < 4; ++pipe) {
@@ -67,14 +66,14 @@ Mesh pipe_joint() {
     const Vector3d side = pipe_axis(pipe + 1);
     const auto& after = seams[static_cast<std::size_t>(pipe)];
     const auto& before = seams[static_cast<std::size_t>((pipe + 3) % 4)];
-    std::vector<Index> ring(after.begin(), after.begin() + 6);
-    for (int i = 5; i >= 0; --i) ring.push_back(before[static_cast<std::size_t>(i)]);
+    std::vector<Index> ring = after;
+    ring.insert(ring.end(), before.rbegin(), before.rend());
     const std::vector<Index> seam = ring;
-    for (int r = 1; r <= kRings; ++r) {
+    for (int r = 1; r <= rings; ++r) {
       std::vector<Index> next;
-      for (int i = 0; i < kAround; ++i) {
+      for (int i = 0; i < around; ++i) {
         const double start = points[static_cast<std::size_t>(seam[static_cast<std::size_t>(i)])].dot(axis);
-        const double t = static_cast<double>(r) / kRings;
+        const double t = static_cast<double>(r) / rings;
         const Vector3d centre = (start + (kLength - start) * t) * axis;
         next.push_back(
             add_point(points, cast(field, centre, std::sin(angle(i)) * side + std::cos(angle(i)) * Vector3d::UnitZ())));
@@ -85,8 +84,25 @@ Mesh pipe_joint() {
   }
   // Above and below, where the four pipes leave a square.
   mesh.add_face({seams[0][0], seams[1][0], seams[2][0], seams[3][0]});
-  mesh.add_face({seams[3][5], seams[2][5], seams[1][5], seams[0][5]});
+  mesh.add_face({seams[3].back(), seams[2].back(), seams[1].back(), seams[0].back()});
   mesh.points = to_points(points);
+  return mesh;
+}
+
+}  // namespace
+
+Mesh pipe_joint() { return joint(12, 5); }
+
+/// All diagonals alike, so that no rounding decides.
+Mesh coarse_joint() {
+  const Mesh quads = joint(8, 2);
+  Mesh mesh;
+  mesh.points = quads.points;
+  for (std::size_t c = 0; c < quads.face_vertices.size(); c += 4) {
+    const Index* corner = &quads.face_vertices[c];
+    mesh.add_face({corner[0], corner[1], corner[2]});
+    mesh.add_face({corner[0], corner[2], corner[3]});
+  }
   return mesh;
 }
 

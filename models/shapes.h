@@ -12,11 +12,13 @@
 
 namespace batten::models {
 
-Mesh pipe_joint();  ///< two crossing pipes with a fillet, four open ends; 8 vertices of valence 5
-Mesh tripod();      ///< three legs that meet in a hub; closed
-Mesh torus_knot();  ///< a tube along a trefoil, 72 by 8; closed
-Mesh bracket();     ///< an angle bracket with a rib and four bolt holes; creases of 10 and of 2.5
-Mesh creature();    ///< a body, four legs, a head with a snout and ears, a tail; closed
+Mesh pipe_joint();    ///< two crossing pipes with a fillet, four open ends; 8 vertices of valence 5
+Mesh coarse_joint();  ///< the same of as few triangles as show it, 8 around each pipe; valences 4 to 7
+Mesh tripod();        ///< three legs that meet in a hub; closed
+Mesh torus_knot();    ///< a tube along a trefoil, 72 by 8; closed
+Mesh bracket();       ///< an angle bracket with a rib and four bolt holes; creases of 10 and of 2.5
+Mesh creature();      ///< a body, four legs, a head with a snout and ears, a tail; closed
+Mesh pyramid();       ///< five vertices, six triangles: a square pyramid, taller than wide
 
 /// The bracket refined twice, its creases untold, with noise: what a scanner makes of it.
 Mesh bracket_scan();

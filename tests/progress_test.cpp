@@ -15,6 +15,7 @@
 #include "batten/limit/limit_matrix.h"
 #include "batten/limit/nearest_point.h"
 #include "batten/mesh/check.h"
+#include "batten/mesh/discrete_curvature.h"
 #include "batten/mesh/primitives.h"
 #include "batten/mesh/repair.h"
 #include "batten/parallel/parallel.h"
@@ -53,6 +54,12 @@ std::vector<Named> operations(const io_tests::TemporaryFolder& folder) {
          static const NearestPoints nearest(topology, scheme, mesh.points);
          std::vector<NearestPoint> found(static_cast<std::size_t>(mesh.vertex_count()));
          nearest.nearest(mesh.points, found, progress);
+       }},
+      {"discrete curvature",
+       [](const Progress& progress) {
+         const DiscreteCurvature curvature =
+             discrete_curvature(topology, mesh.points, progress_within(progress, 0.0, 0.5));
+         fairness(topology, mesh.points, curvature, progress_within(progress, 0.5, 1.0));
        }},
       {"interpolator", [](const Progress& progress) { Interpolator(topology, scheme, {}, progress); }},
       {"mesh series",

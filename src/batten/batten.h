@@ -27,6 +27,7 @@
 #include "batten/limit/surface_weights.h"
 #include "batten/limit/tessellator.h"
 #include "batten/mesh/check.h"
+#include "batten/mesh/discrete_curvature.h"
 #include "batten/mesh/mesh.h"
 #include "batten/mesh/morph_targets.h"
 #include "batten/mesh/primitives.h"

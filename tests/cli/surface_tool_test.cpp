@@ -71,6 +71,34 @@ TEST_F(Tool, ButterflyAsksForTriangles) {
   EXPECT_NE(curved.err.find("no curvature"), std::string::npos) << curved.err;
 }
 
+TEST_F(Tool, ComparesFourSurfacesThroughTheSameVertices) {
+  const std::string command = "subdivide " + kModels + "tetrahedron.obj --compare --levels ";
+  const Outcome result = run(command + "4 --report r.json --picture p.png --width 640 --before-after");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("interpolated Catmull-Clark"), std::string::npos) << result.out;
+  EXPECT_TRUE(fs::exists(path("p.png")));
+  const auto report = nlohmann::json::parse(text_of(path("r.json")));
+  ASSERT_EQ(report["compared"].size(), 4U);
+  const auto bending = [&](int i) { return report["compared"][i]["bending"].get<double>(); };
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_EQ(report["compared"][i]["failure"], "");
+    EXPECT_EQ(report["compared"][i]["vertices_left_out"], 0);
+    EXPECT_GT(bending(i), 12.56);  // a closed surface
+  }
+  EXPECT_GT(bending(0), bending(1));  // the figure 1 of ZSS96: creases, and none
+  EXPECT_GT(bending(1), bending(2));
+  EXPECT_EQ(report["compared"][2]["method"].get<std::string>().empty(), false);
+}
+
+TEST_F(Tool, ComparesTrianglesOnlyAndWritesNoMesh) {
+  const Outcome quads = run("subdivide " + kModels + "tripod.obj --compare");
+  EXPECT_EQ(quads.status, 1);
+  EXPECT_NE(quads.err.find("--triangulate"), std::string::npos) << quads.err;
+  for (const char* wrong : {"-o x.obj", "--scheme loop", "--tension 0.1", "--limit", "--chord 1%"}) {
+    EXPECT_EQ(run("subdivide " + kModels + "tetrahedron.obj --compare " + wrong).status, 2) << wrong;
+  }
+}
+
 TEST_F(Tool, MeasuresDistancesOutsideAndInside) {
   write("cube.obj", kSharpCube);
   write("scan.xyz", "1.5 0 0\n0 0 0.75\n4 5 0\n0 -1 0\n");

@@ -1,11 +1,10 @@
 #include "batten/expand/cotangent_rows.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "batten/error.h"
-#include "batten/expand/face_triangles.h"
+#include "batten/mesh/face_triangles.h"
 #include "batten/parallel/parallel.h"
 
 namespace batten {
@@ -63,17 +62,14 @@ class CotangentBuilder {
       triangles_.at_corner(h, [&](Index b, Index c) {
         const Eigen::Vector3d to_b = at(b) - here;
         const Eigen::Vector3d to_c = at(c) - here;
-        const double twice_area = to_b.cross(to_c).norm();
-        if (!(twice_area > 0.0)) return;
-        const double cot_v = to_b.dot(to_c) / twice_area;
-        const double cot_b = to_b.dot(to_b - to_c) / twice_area;
-        const double cot_c = to_c.dot(to_c - to_b) / twice_area;
-        const double largest = std::max({std::abs(cot_v), std::abs(cot_b), std::abs(cot_c)});
+        const TriangleCotangents cot = triangle_cotangents(to_b, to_c);
+        if (!(cot.twice_area > 0.0)) return;
+        const double largest = std::max({std::abs(cot.origin), std::abs(cot.b), std::abs(cot.c)});
         if (!std::isfinite(largest)) return;
         const double share = largest > kLargestCotangent ? kLargestCotangent / largest : 1.0;
-        row.entries.emplace_back(b, -0.5 * share * cot_c);
-        row.entries.emplace_back(c, -0.5 * share * cot_b);
-        row.area += twice_area / 6.0;
+        row.entries.emplace_back(b, -0.5 * share * cot.c);
+        row.entries.emplace_back(c, -0.5 * share * cot.b);
+        row.area += cot.twice_area / 6.0;
       });
     });
     row.sort();

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "batten/error.h"
-#include "batten/expand/face_triangles.h"
+#include "batten/mesh/face_triangles.h"
 #include "batten/parallel/parallel.h"
 
 namespace batten {

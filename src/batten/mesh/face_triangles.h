@@ -1,5 +1,6 @@
-/// \file The faces of a topology as triangles, found again from any corner.
+/// \file The faces of a topology as triangles, found again from any corner, and the cotangents of a triangle.
 #pragma once
+#include <Eigen/Geometry>
 #include <array>
 #include <vector>
 
@@ -7,6 +8,21 @@
 #include "batten/mesh/triangulate.h"
 
 namespace batten {
+
+/// Of a triangle's three angles: at its origin and at the ends b and c of the two sides from there.
+struct TriangleCotangents {
+  double origin;
+  double b;
+  double c;
+  double twice_area;  ///< where it is zero, the cotangents are not finite
+};
+
+/// to_b, to_c: the two sides from the origin.
+inline TriangleCotangents triangle_cotangents(const Eigen::Vector3d& to_b, const Eigen::Vector3d& to_c) {
+  const double twice_area = to_b.cross(to_c).norm();
+  return {to_b.dot(to_c) / twice_area, to_b.dot(to_b - to_c) / twice_area, to_c.dot(to_c - to_b) / twice_area,
+          twice_area};
+}
 
 /// Splits each face as triangulate_face does; holds nothing where all faces are triangles. The topology must outlive
 /// it.

@@ -1,0 +1,201 @@
+/// Butterfly, Modified Butterfly and the interpolated Loop and Catmull-Clark surfaces of one triangle mesh.
+#include <fmt/format.h>
+
+#include <array>
+
+#include "batten/error.h"
+#include "batten/interpolate/interpolator.h"
+#include "batten/limit/limit_matrix.h"
+#include "batten/mesh/discrete_curvature.h"
+#include "batten/parallel/parallel.h"
+#include "cli/common.h"
+#include "cli/picture.h"
+
+namespace batten::cli {
+namespace {
+
+struct Contestant {
+  const char* name;
+  SchemeKind kind;
+};
+constexpr std::array<Contestant, 4> kContestants{{{"Butterfly", SchemeKind::Butterfly},
+                                                  {"Modified Butterfly", SchemeKind::ModifiedButterfly},
+                                                  {"interpolated Loop", SchemeKind::Loop},
+                                                  {"interpolated Catmull-Clark", SchemeKind::CatmullClark}}};
+
+/// One surface through the vertices, as fine mesh on it.
+struct Compared {
+  std::string name;
+  Scheme scheme;
+  std::string failure;  ///< why there is no surface, or empty
+  std::string method;   ///< how it was interpolated; empty where there was nothing to solve
+  int iterations = 0;
+  double max_error = 0.0;  ///< in the mesh's unit
+  Mesh mesh;
+  Eigen::VectorXd mean;
+  Fairness fairness;
+};
+
+/// The control mesh of the surface through the points, refined once where the interpolant has to be.
+RefinedSurface through_points(const Topology& topology, const Mesh& mesh, Compared& compared, bool quiet) {
+  const Interpolator interpolator(topology, compared.scheme, {}, ProgressBar("building", quiet).callback());
+  ProgressBar bar("interpolating", quiet);
+  const Interpolant interpolant = interpolator.solve(mesh.points, bar.callback());
+  compared.method = interpolant.report.method_name;
+  compared.iterations = interpolant.report.iterations;
+  compared.max_error = interpolant.max_error;
+  if (!interpolant.report.converged) {
+    throw Error(ErrorCode::NotConverged,
+                fmt::format("not solved: it still misses vertices by {:.2g} after {}", interpolant.max_error,
+                            count_of(interpolant.report.iterations, "iteration", "iterations")));
+  }
+  return ordinary_surface(topology, compared.scheme, interpolant, bar.callback());
+}
+
+void build(const Topology& topology, const Mesh& mesh, int levels, Compared& compared, bool quiet) {
+  RefinedSurface surface{with_surface_holes(topology, compared.scheme), mesh.points};
+  int steps = levels;
+  if (!is_interpolating(compared.scheme.kind)) {
+    surface.values = Values();
+    RefinedSurface control = through_points(topology, mesh, compared, quiet);
+    const bool same = control.topology.vertex_count() == topology.vertex_count();
+    if (!same) surface.topology = std::move(control.topology);
+    surface.values = std::move(control.values);
+    steps = same ? levels : std::max(0, levels - 1);
+  }
+  ProgressBar bar("refining", quiet);
+  const Scheme scheme = compared.scheme.after_first_step();
+  surface = refine(surface.topology, scheme, surface.values, steps, bar.callback());
+  const Values points = LimitMatrix(surface.topology, scheme, {}, bar.callback()).apply(surface.values, bar.callback());
+  const DiscreteCurvature curvature = discrete_curvature(surface.topology, points, bar.callback());
+  compared.fairness = fairness(surface.topology, points, curvature, bar.callback());
+  compared.mean = curvature.mean;
+  compared.mesh = mesh_from_topology(surface.topology);
+  compared.mesh.points = points;
+}
+
+Compared compare(const Contestant& contestant, const SubdivideArguments& arguments, const Topology& topology,
+                 const Mesh& mesh, int levels) {
+  Compared compared;
+  compared.name = contestant.name;
+  compared.scheme = scheme_for(arguments.common, mesh);
+  compared.scheme.kind = contestant.kind;
+  try {
+    build(topology, mesh, levels, compared, arguments.common.quiet);
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::Cancelled) throw;
+    compared.failure = error.what();
+  }
+  return compared;
+}
+
+void draw_compared(const std::vector<Compared>& all, const Mesh& mesh, const PictureArguments& arguments, bool quiet) {
+  std::vector<Subject> subjects;
+  if (arguments.before_after) {
+    Subject given;
+    given.control = mesh;
+    given.flat = true;
+    given.after_caption = "the mesh given";
+    subjects.push_back(std::move(given));
+  }
+  for (const Compared& compared : all) {
+    if (!compared.failure.empty()) continue;
+    Subject subject;
+    subject.control = compared.mesh;
+    subject.flat = true;
+    subject.numbers = compared.mean;
+    subject.numbers_scale = mean_curvature_scale();
+    subject.after_caption = compared.name;
+    subjects.push_back(std::move(subject));
+  }
+  draw_row(subjects, arguments, quiet);
+}
+
+std::string how(const Compared& compared) {
+  if (compared.method.empty()) return "no solve";
+  return fmt::format("{}, {}", compared.method, count_of(compared.iterations, "iteration", "iterations"));
+}
+
+void print_compared(const std::vector<Compared>& all, const CommonArguments& common) {
+  if (common.quiet) return;
+  fmt::print("\n{:<27}  {:>10}  {:>10}  {:>8}  {}\n", "surface", "bending", "variation", "faces", "how");
+  for (const Compared& compared : all) {
+    if (!compared.failure.empty()) {
+      fmt::print("{:<27}  {}\n", compared.name, compared.failure);
+      continue;
+    }
+    fmt::print("{:<27}  {:>10.4g}  {:>10.4g}  {:>8}  {}\n", compared.name, compared.fairness.bending,
+               compared.fairness.variation, grouped(compared.mesh.face_count()), how(compared));
+  }
+  fmt::print("bending: the integral of the squared mean curvature (a sphere of any size has 12.57)\n");
+  fmt::print("variation: the area times the integral of its squared gradient (a sphere has 0)\n");
+}
+
+nlohmann::ordered_json compared_json(const std::vector<Compared>& all) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const Compared& compared : all) {
+    nlohmann::ordered_json one{
+        {"name", compared.name}, {"scheme", scheme_json(compared.scheme)}, {"failure", compared.failure}};
+    if (!compared.method.empty()) {
+      one["method"] = compared.method;
+      one["iterations"] = compared.iterations;
+      one["max_error"] = compared.max_error;
+    }
+    if (compared.failure.empty()) {
+      one["vertices"] = compared.mesh.vertex_count();
+      one["faces"] = compared.mesh.face_count();
+      one["bending"] = compared.fairness.bending;
+      one["variation"] = compared.fairness.variation;
+      one["area"] = compared.fairness.area;
+      one["vertices_left_out"] = compared.fairness.left_out;
+    }
+    json.push_back(std::move(one));
+  }
+  return json;
+}
+
+}  // namespace
+
+int run_compare_schemes(const SubdivideArguments& arguments) {
+  const CommonArguments& common = arguments.common;
+  const ThreadLimit limit(common.threads);
+  Stages stages;
+  nlohmann::ordered_json repairs;
+  const Mesh mesh = read_input(common, &repairs);
+  stages.finish("read");
+  if (!all_triangles(mesh)) {
+    throw Error(ErrorCode::NotTriangles,
+                common.input +
+                    ": the schemes to compare have triangles in common only; split its faces by "
+                    "--triangulate");
+  }
+  const Topology topology(mesh, ProgressBar("connecting", common.quiet).callback());
+  const int levels = arguments.levels < 0 ? picture_levels(topology) : arguments.levels;
+  stages.finish("topology");
+  std::vector<Compared> all;
+  for (const Contestant& contestant : kContestants) {
+    all.push_back(compare(contestant, arguments, topology, mesh, levels));
+    stages.finish(contestant.name);
+  }
+  if (!arguments.picture.path.empty()) {
+    draw_compared(all, mesh, arguments.picture, common.quiet);
+    stages.finish("picture");
+  }
+  Table table;
+  table.add("mesh", mesh_text(topology));
+  table.add("refined", count_of(levels, "level", "levels"));
+  table.add("time", stages.text());
+  table.print(common);
+  print_compared(all, common);
+  write_json(common.report, {{"verb", "subdivide"},
+                             {"input", common.input},
+                             {"repairs", repairs},
+                             {"levels", levels},
+                             {"vertices", mesh.vertex_count()},
+                             {"faces", mesh.face_count()},
+                             {"compared", compared_json(all)},
+                             {"seconds", stages.json()}});
+  return 0;
+}
+
+}  // namespace batten::cli
