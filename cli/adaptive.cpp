@@ -20,7 +20,8 @@ AdaptiveOptions options_of(const SubdivideArguments& arguments, const Scheme& sc
   options.chord = in_unit(arguments.chord, diagonal);
   options.edge_length = in_unit(arguments.edge_length, diagonal);
   options.angle = arguments.angle.value_or(0.0);
-  options.faces = arguments.faces.value_or(scheme.kind == SchemeKind::Loop ? FaceKind::Triangles : FaceKind::Quads);
+  options.faces =
+      arguments.faces.value_or(scheme.kind == SchemeKind::CatmullClark ? FaceKind::Quads : FaceKind::Triangles);
   if (arguments.levels >= 0) options.max_level = arguments.levels;
   if (arguments.max_faces) options.max_faces = *arguments.max_faces;
   return options;
@@ -60,9 +61,13 @@ int run_adaptive(const SubdivideArguments& arguments) {
   const AdaptiveMesh result = tessellate_adaptively(topology, scheme, mesh.points, options,
                                                     ProgressBar("tessellating", common.quiet).callback());
   stages.finish("tessellate");
-  const double chord = measured_chord(LimitSurface(topology, scheme, mesh.points), result,
-                                      ProgressBar("measuring", common.quiet).callback());
-  stages.finish("measure");
+  // Butterfly surfaces have no closed form to measure by.
+  std::optional<double> chord;
+  if (!is_interpolating(scheme.kind)) {
+    chord = measured_chord(LimitSurface(topology, scheme, mesh.points), result,
+                           ProgressBar("measuring", common.quiet).callback());
+    stages.finish("measure");
+  }
   write_output(common, result.mesh);
   stages.finish("write");
   if (!arguments.picture.path.empty()) {
@@ -75,7 +80,7 @@ int run_adaptive(const SubdivideArguments& arguments) {
   table.add("tessellated", fmt::format("to {}, all {}, up to {} deep", size_text(result.mesh),
                                        options.faces == FaceKind::Quads ? "quads" : "triangles",
                                        count_of(result.deepest_level, "level", "levels")));
-  table.add("chord error", bound_text(chord, options.chord, ""));
+  if (chord) table.add("chord error", bound_text(*chord, options.chord, ""));
   table.add("longest edge", bound_text(result.longest_edge, options.edge_length, ""));
   if (options.angle > 0.0) table.add("widest angle", bound_text(result.widest_angle, options.angle, "°"));
   if (result.unmet > 0) {
@@ -84,19 +89,22 @@ int run_adaptive(const SubdivideArguments& arguments) {
   }
   table.add("time", stages.text());
   table.print(common);
-  write_json(common.report, {{"verb", "subdivide"},
-                             {"input", common.input},
-                             {"output", common.output},
-                             {"repairs", repairs},
-                             {"chord", {{"asked", options.chord}, {"measured", chord}}},
-                             {"edge_length", {{"asked", options.edge_length}, {"longest", result.longest_edge}}},
-                             {"angle", {{"asked", options.angle}, {"widest", result.widest_angle}}},
-                             {"deepest_level", result.deepest_level},
-                             {"cells_not_certain", result.unmet},
-                             {"scheme", scheme_json(scheme)},
-                             {"vertices", result.mesh.vertex_count()},
-                             {"faces", result.mesh.face_count()},
-                             {"seconds", stages.json()}});
+  write_json(
+      common.report,
+      {{"verb", "subdivide"},
+       {"input", common.input},
+       {"output", common.output},
+       {"repairs", repairs},
+       {"chord",
+        {{"asked", options.chord}, {"measured", chord ? nlohmann::ordered_json(*chord) : nlohmann::ordered_json()}}},
+       {"edge_length", {{"asked", options.edge_length}, {"longest", result.longest_edge}}},
+       {"angle", {{"asked", options.angle}, {"widest", result.widest_angle}}},
+       {"deepest_level", result.deepest_level},
+       {"cells_not_certain", result.unmet},
+       {"scheme", scheme_json(scheme)},
+       {"vertices", result.mesh.vertex_count()},
+       {"faces", result.mesh.face_count()},
+       {"seconds", stages.json()}});
   return 0;
 }
 

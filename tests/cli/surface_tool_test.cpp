@@ -58,6 +58,18 @@ TEST_F(Tool, ModifiedButterflyKeepsTheVerticesAndTellsNormals) {
   EXPECT_EQ(report.at("scheme").at("kind"), "modified-butterfly");
 }
 
+TEST_F(Tool, AdaptiveButterflyMeetsAnAngle) {
+  const std::string command = "subdivide " + kModels + "pipe-joint.obj --triangulate --scheme modified-butterfly ";
+  const Outcome result = run(command + "--angle 20 --levels 4 -o fine.ply --report r.json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const auto report = nlohmann::json::parse(text_of(path("r.json")));
+  EXPECT_LE(report.at("angle").at("widest").get<double>(), 20.0);
+  EXPECT_EQ(report.at("chord").at("measured"), nullptr);
+  const Outcome chord = run(command + "--chord 1% -o other.ply");
+  EXPECT_EQ(chord.status, 1);
+  EXPECT_NE(chord.err.find("--edge-length"), std::string::npos) << chord.err;
+}
+
 TEST_F(Tool, ButterflyAsksForTriangles) {
   const Outcome quads = run("subdivide " + kModels + "tripod.obj --scheme butterfly -o fine.obj");
   EXPECT_EQ(quads.status, 1);

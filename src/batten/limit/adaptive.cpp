@@ -3,12 +3,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <sstream>
 #include <string>
 #include <utility>
 
 #include "batten/error.h"
+#include "batten/limit/butterfly_points.h"
 #include "batten/limit/chord_cells.h"
 #include "batten/limit/corner_normals.h"
 #include "batten/parallel/parallel.h"
@@ -35,7 +37,7 @@ Buffer<std::uint8_t> base_holes(const Topology& control, const Topology& base, c
   return flags;
 }
 
-void check(const AdaptiveOptions& options) {
+void check(const AdaptiveOptions& options, const Scheme& scheme) {
   const auto bad = [](const std::string& what) { throw Error(ErrorCode::BadArgument, what); };
   const std::pair<const char*, double> bounds[] = {
       {"chord tolerance", options.chord}, {"edge length", options.edge_length}, {"angle", options.angle}};
@@ -45,8 +47,16 @@ void check(const AdaptiveOptions& options) {
     what << "the " << name << " is " << bound << "; it must be positive, or 0 where it is not asked for";
     bad(what.str());
   }
-  if (options.chord == 0.0 && options.edge_length == 0.0 && options.angle == 0.0) {
-    bad("adaptive tessellation needs a chord tolerance, an edge length or an angle");
+  if (options.chord == 0.0 && options.edge_length == 0.0 && options.angle == 0.0 && !options.cut) {
+    bad("adaptive tessellation needs a chord tolerance, an edge length, an angle or a bound of your own");
+  }
+  if (is_interpolating(scheme.kind) && options.chord > 0.0) {
+    bad(std::string(scheme_name(scheme.kind)) +
+        " surfaces have no closed form to measure a chord by; take an edge length or an angle (--edge-length, "
+        "--angle)");
+  }
+  if (is_interpolating(scheme.kind) && options.faces == FaceKind::Quads) {
+    bad(std::string(scheme_name(scheme.kind)) + " surfaces are tessellated in triangles, not in quads");
   }
   if (options.max_level < 0 || options.max_level > CellForest::kMostLevels) {
     bad("cells have 0 to " + std::to_string(CellForest::kMostLevels) + " levels, not " +
@@ -69,8 +79,9 @@ class AdaptiveBuilder {
         scheme_(scheme),
         control_(control),
         options_(options),
-        surface_(topology, scheme, control),
-        forest_(surface_.base(), base_holes(topology, surface_.base(), scheme)),
+        surface_(is_interpolating(scheme.kind) ? nullptr : std::make_unique<LimitSurface>(topology, scheme, control)),
+        butterfly_(surface_ != nullptr ? nullptr : std::make_unique<ButterflyPoints>(topology, scheme, control)),
+        forest_(base(), base_holes(topology, base(), scheme)),
         quads_(options.faces == FaceKind::Quads) {
     add_vertices(forest_.vertex_places(), 0);
   }
@@ -92,6 +103,8 @@ class AdaptiveBuilder {
   }
 
  private:
+  const Topology& base() const { return surface_ == nullptr ? topology_ : surface_->base(); }
+  void evaluate(std::span<const SurfacePlace> places, Eigen::Ref<Points> points, Eigen::Ref<Points> normals) const;
   void add_vertices(std::span<const SurfacePlace> places, Index first);
   const CellNets& nets() {
     if (nets_ == nullptr) nets_ = std::make_unique<CellNets>(topology_, scheme_, control_);
@@ -103,6 +116,7 @@ class AdaptiveBuilder {
   Buffer<Index> beyond_measure(const Progress& progress);
   void measure_edges(Buffer<std::uint8_t>& beyond);
   void measure_angles(Buffer<std::uint8_t>& beyond, const Progress& progress);
+  void measure_by_cut(Buffer<std::uint8_t>& beyond) const;
   Eigen::RowVector3d corner_normal(std::size_t corner) const {
     return normals_.corner_rows.empty() ? normals_.rows.row(faces_.vertices[corner])
                                         : normals_.rows.row(normals_.corner_rows[corner]);
@@ -113,7 +127,8 @@ class AdaptiveBuilder {
   const Scheme& scheme_;
   const Eigen::Ref<const Values, 0, Eigen::OuterStride<>> control_;
   const AdaptiveOptions& options_;
-  LimitSurface surface_;
+  std::unique_ptr<LimitSurface> surface_;  ///< one of these two
+  std::unique_ptr<ButterflyPoints> butterfly_;
   std::unique_ptr<CellNets> nets_;
   CellForest forest_;
   bool quads_;
@@ -133,14 +148,21 @@ void AdaptiveBuilder::add_vertices(std::span<const SurfacePlace> places, Index f
   const auto count = static_cast<std::ptrdiff_t>(places.size());
   points_.conservativeResize(first + count, 3);
   vertex_normals_.conservativeResize(first + count, 3);
+  evaluate(places, points_.bottomRows(count), vertex_normals_.bottomRows(count));
+}
+
+void AdaptiveBuilder::evaluate(std::span<const SurfacePlace> places, Eigen::Ref<Points> points,
+                               Eigen::Ref<Points> normals) const {
+  if (butterfly_ != nullptr) return butterfly_->evaluate(places, points, normals);
+  const auto count = static_cast<std::ptrdiff_t>(places.size());
   std::vector<Jet> jets;
   for (std::ptrdiff_t begin = 0; begin < count; begin += kChunk) {
     const std::ptrdiff_t size = std::min(kChunk, count - begin);
     jets.resize(static_cast<std::size_t>(size));
-    surface_.jets(places.subspan(static_cast<std::size_t>(begin), jets.size()), jets);
+    surface_->jets(places.subspan(static_cast<std::size_t>(begin), jets.size()), jets);
     for (std::ptrdiff_t i = 0; i < size; ++i) {
-      points_.row(first + begin + i) = jets[i].point.transpose();
-      vertex_normals_.row(first + begin + i) = unit_normal(jets[i]).transpose();
+      points.row(begin + i) = jets[i].point.transpose();
+      normals.row(begin + i) = unit_normal(jets[i]).transpose();
     }
   }
 }
@@ -148,7 +170,7 @@ void AdaptiveBuilder::add_vertices(std::span<const SurfacePlace> places, Index f
 /// Quads of the base itself will do: nothing to cut, so nothing to close.
 bool AdaptiveBuilder::base_suffices() {
   if (forest_.corner_count() != 4) return false;
-  if (options_.chord > 0.0 && !roots_suffice(nets(), surface_, points_, options_.chord, forest_)) return false;
+  if (options_.chord > 0.0 && !roots_suffice(nets(), *surface_, points_, options_.chord, forest_)) return false;
   close();
   return beyond_measure({}).empty() && unmet_ == 0;
 }
@@ -156,7 +178,7 @@ bool AdaptiveBuilder::base_suffices() {
 void AdaptiveBuilder::cut_by_chord_tolerance(const Progress& progress) {
   const Index faces_per_leaf = quartered_ ? 4 : quads_ ? 1 : forest_.corner_count() - 2;
   const ChordRule rule{options_.chord, quartered_, options_.max_level, options_.max_faces / faces_per_leaf};
-  unmet_ = cut_by_chord(nets(), surface_, points_, rule, forest_, progress);
+  unmet_ = cut_by_chord(nets(), *surface_, points_, rule, forest_, progress);
 }
 
 void AdaptiveBuilder::close() {
@@ -170,7 +192,13 @@ void AdaptiveBuilder::close() {
                                          " faces allowed; take larger bounds, fewer levels or allow more faces");
   }
   if (!faces_.added.empty()) add_vertices(faces_.added, vertices);
-  normals_ = corner_normals(surface_, faces_, forest_, vertex_normals_);
+  const auto normals_at = [&](std::span<const SurfacePlace> places) {
+    Points points(static_cast<Eigen::Index>(places.size()), 3);
+    Points normals(points.rows(), 3);
+    evaluate(places, points, normals);
+    return normals;
+  };
+  normals_ = corner_normals(normals_at, faces_, forest_, vertex_normals_);
 }
 
 void AdaptiveBuilder::measure_edges(Buffer<std::uint8_t>& beyond) {
@@ -213,13 +241,14 @@ void AdaptiveBuilder::measure_angles(Buffer<std::uint8_t>& beyond, const Progres
         places[i].v += at[1] / faces_.size;
       }
     }
-    surface_.jets(places, jets);
+    // Butterfly surfaces have no normals at other places than vertices.
+    if (surface_ != nullptr) surface_->jets(places, jets);
     for (std::ptrdiff_t i = 0; i < count; ++i) {
       const std::size_t first = static_cast<std::size_t>(begin + i) * size;
       const Eigen::RowVector3d middle = unit_normal(jets[i]).transpose();
       double widest = 0.0;
       for (std::size_t k = 0; k < size; ++k) {
-        widest = std::max(widest, angle_between(middle, corner_normal(first + k)));
+        if (surface_ != nullptr) widest = std::max(widest, angle_between(middle, corner_normal(first + k)));
         for (std::size_t j = 0; j < k; ++j) {
           widest = std::max(widest, angle_between(corner_normal(first + j), corner_normal(first + k)));
         }
@@ -230,11 +259,26 @@ void AdaptiveBuilder::measure_angles(Buffer<std::uint8_t>& beyond, const Progres
   }
 }
 
+void AdaptiveBuilder::measure_by_cut(Buffer<std::uint8_t>& beyond) const {
+  Points points(faces_.size, 3);
+  Points normals(faces_.size, 3);
+  for (Index f = 0; f < faces_.count(); ++f) {
+    const auto first = static_cast<std::size_t>(f) * static_cast<std::size_t>(faces_.size);
+    for (Index k = 0; k < faces_.size; ++k) {
+      points.row(k) = points_.row(faces_.vertices[first + static_cast<std::size_t>(k)]);
+      normals.row(k) = corner_normal(first + static_cast<std::size_t>(k));
+    }
+    const Index cell = faces_.cells[f];
+    if (options_.cut({forest_.face(cell), forest_.level(cell), points, normals})) beyond[f] = 1;
+  }
+}
+
 /// The cells with faces beyond the edge length or the angle; those of the last level are counted instead.
 Buffer<Index> AdaptiveBuilder::beyond_measure(const Progress& progress) {
   Buffer<std::uint8_t> beyond(static_cast<std::size_t>(faces_.count()), 0);
   measure_edges(beyond);
   if (options_.angle > 0.0) measure_angles(beyond, progress);
+  if (options_.cut) measure_by_cut(beyond);
   Buffer<Index> cells;
   Index stuck = 0;
   for (Index f = 0; f < faces_.count(); ++f) {
@@ -278,7 +322,7 @@ AdaptiveMesh AdaptiveBuilder::finish() {
 
 AdaptiveMesh tessellate_adaptively(const Topology& topology, const Scheme& scheme, ConstValuesRef control,
                                    const AdaptiveOptions& options, const Progress& progress) {
-  check(options);
+  check(options, scheme);
   AdaptiveBuilder builder(topology, scheme, control, options);
   return builder.build(progress);
 }

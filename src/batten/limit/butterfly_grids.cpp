@@ -168,7 +168,8 @@ class Step {
   void store_by_rules(const HalfEdge& h, Index vertex) const {
     for (std::ptrdiff_t c = 0; c < k_; ++c) {
       double sum = 0.0;
-      rules_.visit(h, [&](Index source, double weight) { sum += weight * row(source)[c]; });
+      rules_.visit(
+          h, [&](const LatticeWalk::Vertex& source, double weight) { sum += weight * (in_ + source.number * k_)[c]; });
       out_[vertex * k_ + c] = static_cast<Scalar>(sum);
     }
   }
@@ -473,7 +474,9 @@ Values butterfly_grid_normals(const Topology& base, const Scheme& scheme, ConstV
     const LatticeWalk walk(base, layout, tags);
     for (Index s = 0; s < layout.steps; ++s) {
       const auto h = walk.on_base(base.edge_half_edge(e), s);
-      mesh.creases.push_back({walk.origin(h), walk.origin(walk.next(h)), kInfiniteSharpness});
+      const auto to = walk.origin(walk.next(h));
+      mesh.creases.push_back(
+          {static_cast<Index>(walk.origin(h).number), static_cast<Index>(to.number), kInfiniteSharpness});
     }
   }
   for (Index v = 0; v < base.vertex_count(); ++v) {

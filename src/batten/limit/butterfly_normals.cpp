@@ -2,47 +2,24 @@
 
 #include <Eigen/Geometry>
 
-#include "batten/limit/butterfly_tangents.h"
+#include "batten/limit/butterfly_fan.h"
 #include "batten/parallel/parallel.h"
 
 namespace batten {
 
 namespace {
 
-/// Outgoing half-edges of a vertex, counter-clockwise; those of a dart from its sharp edge on.
-struct Fan {
-  ButterflyVertex kind;
-  Buffer<Index> half_edges;
-
-  int triangles() const { return static_cast<int>(half_edges.size()); }
-  bool closed() const { return kind != ButterflyVertex::Curve && kind != ButterflyVertex::Corner; }
-  ButterflyFan shape() const {
-    if (kind == ButterflyVertex::Curve) return ButterflyFan::Curve;
-    return kind == ButterflyVertex::Dart ? ButterflyFan::Dart : ButterflyFan::Closed;
-  }
-  /// Corners are cones; two triangles that share two edges have no tangent plane.
-  bool has_masks() const { return kind != ButterflyVertex::Corner && !(closed() && triangles() < 3); }
-};
-
-/// Calls visit(fan) for each side of a vertex that has faces.
+/// Calls visit(side) for each side of a vertex that has faces, the first that its fan begins with first.
 template <typename Visit>
-void for_each_fan(const Topology& topology, const TopologyWalk& walk, Index vertex, const Visit& visit) {
-  Buffer<Index> outgoing;
-  topology.for_each_outgoing(vertex, [&](Index h) { outgoing.push_back(h); });
-  const auto count = outgoing.size();
-  std::size_t start = 0;
-  while (start < count && !walk.is_sharp(outgoing[start])) ++start;
-  Fan fan{walk.kind(vertex), {}};
-  if (start == count) start = 0;  // no sharp edge
-  for (std::size_t i = 0; i < count; ++i) {
-    const Index h = outgoing[(start + i) % count];
-    if (!fan.closed() && walk.is_sharp(h) && !fan.half_edges.empty()) {
-      visit(fan);
-      fan.half_edges.clear();
-    }
-    fan.half_edges.push_back(h);
-  }
-  visit(fan);
+void for_each_side(const Topology& topology, const TopologyWalk& walk, Index vertex, const Visit& visit) {
+  bool any = false;
+  const bool smooth = walk.kind(vertex) != ButterflyVertex::Curve && walk.kind(vertex) != ButterflyVertex::Corner;
+  topology.for_each_outgoing(vertex, [&](Index h) {
+    if (smooth || !walk.is_sharp(h)) return;
+    visit(side_of(walk, h));
+    any = true;
+  });
+  if (!any) visit(side_of(walk, topology.vertex_half_edge(vertex)));
 }
 
 class Writer {
@@ -54,13 +31,12 @@ class Writer {
         kinds_(butterfly_vertices(topology, scheme)),
         masks_(scheme),
         tangents_(scheme),
-        walk_(topology, kinds_),
-        rules_(walk_, masks_) {
+        walk_(topology, kinds_) {
     regular_ = &tangents_.make(ButterflyFan::Closed, 6);
     for (Index v = 0; v < topology.vertex_count(); ++v) {
       if (topology.is_isolated(v) || kinds_[v] == ButterflyVertex::Regular) continue;
-      for_each_fan(topology, walk_, v, [&](const Fan& fan) {
-        if (fan.has_masks()) tangents_.make(fan.shape(), fan.triangles());
+      for_each_side(topology, walk_, v, [&](const Side& side) {
+        if (side.has_masks()) tangents_.make(side.shape(), side.triangles());
       });
     }
   }
@@ -68,22 +44,23 @@ class Writer {
   void write(Index vertex) const {
     if (topology_.is_isolated(vertex)) return;
     if (kinds_[vertex] == ButterflyVertex::Regular && write_among_regular(vertex)) return;
+    const auto point_of = [&](Index v) { return point(v); };
+    const ButterflyNormal normal_of(walk_, masks_, point_of);
     bool first = true;
-    for_each_fan(topology_, walk_, vertex, [&](const Fan& fan) {
-      const Eigen::Vector3d normal = normal_of(vertex, fan);
+    for_each_side(topology_, walk_, vertex, [&](const Side& side) {
+      const ButterflyTangentMasks* tangents =
+          side.has_masks() ? &tangents_.at(side.shape(), side.triangles()) : nullptr;
+      const Eigen::Vector3d normal = normal_of(side, tangents);
       if (first) normals_.vertices.row(vertex) = normal;
-      for (const Index h : fan.half_edges) normals_.corners.row(h) = normal;
+      for (const Index h : side.half_edges) normals_.corners.row(h) = normal;
       first = false;
     });
   }
 
  private:
+  using Side = ButterflySide<TopologyWalk>;
+
   Eigen::Vector3d point(Index vertex) const { return points_.row(vertex).transpose(); }
-  Eigen::Vector3d new_point(Index half_edge) const {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    rules_.visit(half_edge, [&](Index vertex, double weight) { sum += weight * point(vertex); });
-    return sum;
-  }
 
   /// The two rings as they are, where all neighbours are regular: one more step would change nothing.
   bool write_among_regular(Index vertex) const {
@@ -115,56 +92,6 @@ class Writer {
     return true;
   }
 
-  Eigen::Vector3d normal_of(Index vertex, const Fan& fan) const {
-    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-    if (fan.has_masks()) {
-      const ButterflyTangentMasks& masks = tangents_.at(fan.shape(), fan.triangles());
-      const Eigen::Vector3d first = tangent(vertex, fan, masks.first);
-      const Eigen::Vector3d second = tangent(vertex, fan, masks.second);
-      normal = first.cross(second);
-      if (!(normal.norm() > kParallel * first.norm() * second.norm())) normal.setZero();
-    }
-    if (normal.isZero(0.0)) normal = cone_normal(vertex, fan);
-    const double length = normal.norm();
-    return length > 0.0 ? Eigen::Vector3d(normal / length) : Eigen::Vector3d(Eigen::Vector3d::Zero());
-  }
-
-  Eigen::Vector3d tangent(Index vertex, const Fan& fan, const TwoRingMask& mask) const {
-    Eigen::Vector3d sum = mask.vertex * point(vertex);
-    for (int j = 0; j < fan.triangles(); ++j) {
-      const Index h = fan.half_edges[j];
-      add_edge(mask, static_cast<std::size_t>(j), h, topology_.destination(h), sum);
-      if (!mask.across.empty()) sum += mask.across[j] * new_point(topology_.next(h));
-    }
-    if (fan.closed()) return sum;
-    const Index last = topology_.previous(fan.half_edges.back());
-    add_edge(mask, static_cast<std::size_t>(fan.triangles()), last, topology_.origin(last), sum);
-    return sum;
-  }
-
-  /// One step on, e_j is the new point of the edge and d_j the neighbour that e_j was.
-  void add_edge(const TwoRingMask& mask, std::size_t j, Index half_edge, Index neighbour, Eigen::Vector3d& sum) const {
-    if (mask.edges[j] != 0.0) sum += mask.edges[j] * new_point(half_edge);
-    if (!mask.beyond.empty() && mask.beyond[j] != 0.0) sum += mask.beyond[j] * point(neighbour);
-  }
-
-  /// Every edge at a corner is a curve that ends there: the cone of their tangents, its triangles weighted by area.
-  Eigen::Vector3d cone_normal(Index vertex, const Fan& fan) const {
-    const double after = 2.0 * masks_.curve_end().after;
-    const auto end_tangent = [&](Index h, Index neighbour) -> Eigen::Vector3d {
-      return new_point(h) + after * point(neighbour) - (1.0 + after) * point(vertex);
-    };
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const Index h : fan.half_edges) {
-      const Index last = topology_.previous(h);
-      sum += end_tangent(h, topology_.destination(h)).cross(end_tangent(last, topology_.origin(last)));
-    }
-    return sum;
-  }
-
-  /// The sine below which two tangents are one: where Butterfly is not smooth both masks are its first eigenvector.
-  static constexpr double kParallel = 1e-9;
-
   const Topology& topology_;
   ConstValuesRef points_;
   LimitNormals& normals_;
@@ -172,7 +99,6 @@ class Writer {
   ButterflyMasks masks_;
   ButterflyTangents tangents_;
   TopologyWalk walk_;
-  ButterflyRules<TopologyWalk> rules_;
   const ButterflyTangentMasks* regular_;
 };
 

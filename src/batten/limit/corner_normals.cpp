@@ -51,9 +51,9 @@ Eigen::Vector3d unit_normal(const Jet& jet) {
   return length > 0.0 ? Eigen::Vector3d(cross / length) : Eigen::Vector3d(Eigen::Vector3d::Zero());
 }
 
-CornerNormals corner_normals(const LimitSurface& surface, const CellFaces& faces, const CellForest& forest,
+CornerNormals corner_normals(const NormalsAt& normals_at, const CellFaces& faces, const CellForest& forest,
                              const Points& vertex_normals) {
-  const Creases creases(surface.base());
+  const Creases creases(forest.base());
   if (!creases.any()) return {vertex_normals, {}};
   Buffer<std::size_t> corners;
   std::vector<SurfacePlace> places;
@@ -63,13 +63,12 @@ CornerNormals corner_normals(const LimitSurface& surface, const CellFaces& faces
     corners.push_back(c);
     places.push_back({face, faces.places[c][0], faces.places[c][1]});
   }
-  std::vector<Jet> jets(places.size());
-  surface.jets(places, jets);
+  const Points normals = normals_at(places);
   Buffer<Index> rows = faces.vertices;
   Buffer<std::size_t> differing;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Eigen::Vector3d normal = unit_normal(jets[i]);
-    if ((normal.transpose() - vertex_normals.row(faces.vertices[corners[i]])).norm() <= kSameNormal) continue;
+    const auto row = static_cast<Eigen::Index>(i);
+    if ((normals.row(row) - vertex_normals.row(faces.vertices[corners[i]])).norm() <= kSameNormal) continue;
     rows[corners[i]] = static_cast<Index>(vertex_normals.rows() + static_cast<Eigen::Index>(differing.size()));
     differing.push_back(i);
   }
@@ -77,7 +76,8 @@ CornerNormals corner_normals(const LimitSurface& surface, const CellFaces& faces
   Values all(vertex_normals.rows() + static_cast<Eigen::Index>(differing.size()), 3);
   all.topRows(vertex_normals.rows()) = vertex_normals;
   for (std::size_t i = 0; i < differing.size(); ++i) {
-    all.row(vertex_normals.rows() + static_cast<Eigen::Index>(i)) = unit_normal(jets[differing[i]]).transpose();
+    all.row(vertex_normals.rows() + static_cast<Eigen::Index>(i)) =
+        normals.row(static_cast<Eigen::Index>(differing[i]));
   }
   return {std::move(all), std::move(rows)};
 }

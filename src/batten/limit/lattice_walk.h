@@ -16,9 +16,16 @@ struct LatticeTags {
 LatticeTags lattice_tags(const Topology& base, const Scheme& scheme, int levels);
 
 /// An upright triangle (i, j) has the corners (i, j), (i+1, j), (i, j+1), a turned one (i+1, j+1), (i, j+1), (i+1, j);
-/// side s of a triangle runs from its corner s on. At least two steps a face.
+/// side s of a triangle runs from its corner s on.
 class LatticeWalk {
  public:
+  /// A point of a face's lattice; on sides and corners one of several names, the number is the same.
+  struct Vertex {
+    std::int64_t number;
+    Index face;
+    Index i;
+    Index j;
+  };
   /// Side `side` of a triangle.
   struct HalfEdge {
     Index face;
@@ -32,10 +39,10 @@ class LatticeWalk {
   LatticeWalk(const Topology& base, const TessellationLayout& layout, const LatticeTags& tags)
       : base_(base), layout_(layout), tags_(tags) {}
 
-  Index origin(const HalfEdge& h) const {
+  Vertex origin(const HalfEdge& h) const {
     const Index i = h.turned ? h.i + 1 - (h.side == 1 ? 1 : 0) : h.i + (h.side == 1 ? 1 : 0);
     const Index j = h.turned ? h.j + 1 - (h.side == 2 ? 1 : 0) : h.j + (h.side == 2 ? 1 : 0);
-    return layout_.vertex(base_, h.face, i, j);
+    return {layout_.number(base_, h.face, i, j), h.face, i, j};
   }
   HalfEdge next(const HalfEdge& h) const { return {h.face, h.i, h.j, h.turned, h.side == 2 ? 0 : h.side + 1}; }
   HalfEdge previous(const HalfEdge& h) const { return {h.face, h.i, h.j, h.turned, h.side == 0 ? 2 : h.side - 1}; }
@@ -53,11 +60,18 @@ class LatticeWalk {
     const Index across = base_side(h);
     return across >= 0 && tags_.sharp_edges[base_.edge(across)] != 0;
   }
-  ButterflyVertex kind(Index vertex) const {
-    if (vertex < layout_.edge_start) return tags_.kinds[vertex];
-    if (vertex >= layout_.face_start) return ButterflyVertex::Regular;
-    const auto edge = static_cast<Index>((vertex - layout_.edge_start) / layout_.per_edge);
+  ButterflyVertex kind(const Vertex& vertex) const {
+    if (vertex.number < layout_.edge_start) return tags_.kinds[vertex.number];
+    if (vertex.number >= layout_.face_start) return ButterflyVertex::Regular;
+    const auto edge = static_cast<Index>((vertex.number - layout_.edge_start) / layout_.per_edge);
     return tags_.sharp_edges[edge] != 0 ? ButterflyVertex::Curve : ButterflyVertex::Regular;
+  }
+
+  /// A half-edge from a point into its own face.
+  HalfEdge outgoing(Index face, Index i, Index j) const {
+    if (i + j < layout_.steps) return {face, i, j, false, 0};
+    if (i > 0) return {face, i - 1, j, false, 1};
+    return {face, i, j - 1, false, 2};
   }
 
   /// The half-edge along a base half-edge, so many segments from its origin.

@@ -38,8 +38,11 @@ struct TessellationLayout {
     return face_start + per_face * face + (quads ? rows * per_edge : rows * per_edge - rows * (rows + 1) / 2);
   }
   GridPoint locate(const Topology& base, Index face, Index i, Index j) const;
-  /// The vertex at the point (i, j) of a face's grid.
-  Index vertex(const Topology& base, Index face, Index i, Index j) const;
+  /// The vertex at the point (i, j) of a face's grid. Deep grids have more vertices than an Index can count.
+  std::int64_t number(const Topology& base, Index face, Index i, Index j) const;
+  Index vertex(const Topology& base, Index face, Index i, Index j) const {
+    return static_cast<Index>(number(base, face, i, j));
+  }
   /// Number of grid points in row j.
   Index row_length(Index j) const { return quads ? steps + 1 : steps + 1 - j; }
 };
@@ -59,13 +62,13 @@ inline GridPoint TessellationLayout::locate(const Topology& base, Index face, In
   return {-1, 0};
 }
 
-inline Index TessellationLayout::vertex(const Topology& base, Index face, Index i, Index j) const {
+inline std::int64_t TessellationLayout::number(const Topology& base, Index face, Index i, Index j) const {
   const GridPoint at = locate(base, face, i, j);
-  if (at.half_edge < 0) return static_cast<Index>(inside_face(face, j) + i - 1);
+  if (at.half_edge < 0) return inside_face(face, j) + i - 1;
   if (at.from_origin == 0) return base.origin(at.half_edge);
   const Index edge = base.edge(at.half_edge);
   const bool lower = base.edge_half_edge(edge) == at.half_edge;
-  return static_cast<Index>(edge_start + per_edge * edge + (lower ? at.from_origin : steps - at.from_origin) - 1);
+  return edge_start + per_edge * edge + (lower ? at.from_origin : steps - at.from_origin) - 1;
 }
 
 /// Copies what a face owns of its grid: inner points, an edge by the face of its lower half-edge, a vertex by the face
