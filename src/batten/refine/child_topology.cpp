@@ -164,8 +164,7 @@ void pass_tags_on(const Topology& parent, const Scheme& scheme, TopologyTables& 
         for (std::size_t i = 0; i < ring.edges.size(); ++i) {
           const Index e = ring.edges[i];
           const bool at_origin = parent.origin(parent.edge_half_edge(e)) == v;
-          child.edge_sharpness[2 * e + (at_origin ? 0 : 1)] =
-              subdivided_sharpness(ring.sharpness[i], around, method);
+          child.edge_sharpness[2 * e + (at_origin ? 0 : 1)] = subdivided_sharpness(ring.sharpness[i], around, method);
         }
       }
     });

@@ -13,7 +13,8 @@ namespace batten {
 /// Vertex order of the child: vertex i of the parent, then one vertex an edge (V + e), then, for Catmull-Clark, one a
 /// face (V + E + f). Catmull-Clark makes of each half-edge h of the parent the quad h: (origin(h), edge(h), face,
 /// edge(previous(h))). The others make of each triangle f the triangles 4f..4f+2 at its corners and 4f+3 in the middle.
-/// Rules: OpenSubdiv 3.5's, to rounding; the Butterflies' stand in refine/butterfly_rules.h. Cost O(H) time and memory. The topology must outlive the refinement.
+/// Rules: OpenSubdiv 3.5's, to rounding; the Butterflies' stand in refine/butterfly_rules.h. Cost O(H) time and memory.
+/// The topology must outlive the refinement.
 class Refinement {
  public:
   /// vertex_alpha: empty, or Lai's alpha for each vertex instead of scheme.alpha.
