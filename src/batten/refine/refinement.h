@@ -18,9 +18,8 @@ namespace batten {
 class Refinement {
  public:
   /// vertex_alpha: empty, or Lai's alpha for each vertex instead of scheme.alpha.
-  /// Throws Error(NotTriangles) for other schemes than Catmull-Clark on other faces, Error(BadArgument) for alpha out of
-  /// [0, 1] or a tension that is not finite, Error(TooLarge),
-  /// Error(Cancelled).
+  /// Throws Error(NotTriangles) for other schemes than Catmull-Clark on other faces, Error(BadArgument) for alpha out
+  /// of [0, 1] or a tension that is not finite, Error(TooLarge), Error(Cancelled).
   Refinement(const Topology& topology, const Scheme& scheme, std::vector<double> vertex_alpha = {},
              const Progress& progress = {});
 
