@@ -101,8 +101,8 @@ NoiseEstimate estimate_noise(const MeshSeries& series, ConstValuesRef points, Co
 SmoothingChoice choose_smoothing(const MeshSeries& series, ConstValuesRef points, ConstValuesRef normals,
                                  double deviation, const Progress& progress) {
   require_points(series, points, normals);
-  static constexpr int kStops[] = {1,  2,  3,  4,  5,  6,  8,  10, 12, 14,  16,  20,
-                                   24, 28, 32, 40, 48, 56, 64, 80, 96, 128, 160, 200};
+  static constexpr int kStops[] = {1,  2,  3,  4,  5,  6,  8,   10,  12,  14,  16,  20,  24,  28,  32,
+                                   40, 48, 56, 64, 80, 96, 128, 160, 200, 256, 320, 400, 512, 640, 800};
   constexpr int kWorseInARow = 3;  // then no later stop will be better
   const Index count = series.topology().vertex_count();
   Index measured = 0;
