@@ -1,13 +1,31 @@
 #include "batten/mesh/triangulate.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
+#include <cstdint>
+#include <tuple>
+#include <unordered_set>
 
 namespace batten {
 
 namespace {
 
 using Triangle = std::array<Index, 3>;  // positions in the face
+
+/// Pairs of vertices that are edges already: a diagonal between them would be an edge of too many triangles.
+class Edges {
+ public:
+  void insert(Index a, Index b) { pairs_.insert(key(a, b)); }
+  bool contains(Index a, Index b) const { return pairs_.count(key(a, b)) != 0; }
+
+ private:
+  static std::uint64_t key(Index a, Index b) {
+    constexpr int kBits = 32;
+    return (static_cast<std::uint64_t>(std::min(a, b)) << kBits) | static_cast<std::uint32_t>(std::max(a, b));
+  }
+  std::unordered_set<std::uint64_t> pairs_;
+};
 
 Eigen::Vector3d point(const Mesh& mesh, Index corner) {
   return mesh.points.row(mesh.face_vertices[corner]).transpose();
@@ -23,7 +41,7 @@ Eigen::Vector3d face_normal(const Mesh& mesh, Index first, Index size) {
 /// The ring of corners that are still to be cut from a face.
 class EarCutter {
  public:
-  EarCutter(const Mesh& mesh, Index first, Index size) : mesh_(mesh), first_(first) {
+  EarCutter(const Mesh& mesh, Index first, Index size, const Edges& edges) : mesh_(mesh), first_(first), edges_(edges) {
     normal_ = face_normal(mesh, first, size);
     for (Index i = 0; i < size; ++i) left_.push_back(i);
   }
@@ -31,7 +49,8 @@ class EarCutter {
   void cut(std::vector<Triangle>& out) {
     while (left_.size() > 3) {
       std::size_t ear = 0;
-      while (ear < left_.size() && !is_ear(ear)) ++ear;
+      while (ear < left_.size() && !(is_ear(ear) && is_free(ear))) ++ear;
+      for (std::size_t i = 0; ear == left_.size() && i < left_.size(); ++i) ear = is_ear(i) ? i : ear;
       if (ear == left_.size()) ear = 1;
       out.push_back({before(ear), left_[ear], after(ear)});
       left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(ear));
@@ -44,6 +63,10 @@ class EarCutter {
   Index after(std::size_t i) const { return left_[(i + 1) % left_.size()]; }
   Eigen::Vector3d at(Index i) const { return point(mesh_, first_ + i); }
   double turn(Index a, Index b, Index c) const { return (at(b) - at(a)).cross(at(c) - at(b)).dot(normal_); }
+
+  bool is_free(std::size_t i) const {
+    return !edges_.contains(mesh_.face_vertices[first_ + before(i)], mesh_.face_vertices[first_ + after(i)]);
+  }
 
   bool is_ear(std::size_t i) const {
     const Index a = before(i);
@@ -59,30 +82,51 @@ class EarCutter {
 
   const Mesh& mesh_;
   Index first_;
+  const Edges& edges_;
   Eigen::Vector3d normal_;
   std::vector<Index> left_;
 };
 
-}  // namespace
+/// A diagonal of a quad from corner `from`; what speaks against it, the weightiest first.
+struct Diagonal {
+  bool taken;  ///< it is an edge already
+  bool folds;  ///< the two triangles would lie over each other, as one of the diagonals of an arrowhead does
+  double square;
+  bool better_than(const Diagonal& other) const {
+    return std::tuple(taken, folds, square) < std::tuple(other.taken, other.folds, other.square);
+  }
+};
 
-void triangulate_face(const Mesh& mesh, Index face, std::vector<std::array<Index, 3>>& out) {
+Diagonal diagonal(const Mesh& mesh, Index first, Index from, const Edges& edges) {
+  const auto at = [&](Index i) { return point(mesh, first + (from + i) % 4); };
+  const Eigen::Vector3d along = at(2) - at(0);
+  const bool folds = (at(1) - at(0)).cross(along).dot(along.cross(at(3) - at(0))) < 0.0;
+  const bool taken = edges.contains(mesh.face_vertices[first + from], mesh.face_vertices[first + from + 2]);
+  return {taken, folds, along.squaredNorm()};
+}
+
+void split_face(const Mesh& mesh, Index face, const Edges& edges, std::vector<Triangle>& out) {
   const Index first = mesh.face_offsets[face];
   const Index size = mesh.face_size(face);
   if (size == 3) {
     out.push_back({0, 1, 2});
   } else if (size == 4) {
-    const double across = (point(mesh, first) - point(mesh, first + 2)).squaredNorm();
-    const double other = (point(mesh, first + 1) - point(mesh, first + 3)).squaredNorm();
-    if (across <= other) {
-      out.push_back({0, 1, 2});
-      out.push_back({0, 2, 3});
-    } else {
+    if (diagonal(mesh, first, 1, edges).better_than(diagonal(mesh, first, 0, edges))) {
       out.push_back({0, 1, 3});
       out.push_back({1, 2, 3});
+    } else {
+      out.push_back({0, 1, 2});
+      out.push_back({0, 2, 3});
     }
   } else {
-    EarCutter(mesh, first, size).cut(out);
+    EarCutter(mesh, first, size, edges).cut(out);
   }
+}
+
+}  // namespace
+
+void triangulate_face(const Mesh& mesh, Index face, std::vector<std::array<Index, 3>>& out) {
+  split_face(mesh, face, Edges(), out);
 }
 
 Mesh triangulated(const Mesh& mesh) {
@@ -93,11 +137,22 @@ Mesh triangulated(const Mesh& mesh) {
   for (Attribute& attribute : result.attributes) attribute.corner_rows.clear();
   std::vector<Index> first_triangle(static_cast<std::size_t>(mesh.face_count()) + 1, 0);
   std::vector<Triangle> triangles;
+  Edges edges;
+  const bool split = !all_triangles(mesh);
+  for (Index f = 0; split && f < mesh.face_count(); ++f) {
+    const Index first = mesh.face_offsets[f];
+    const Index size = mesh.face_size(f);
+    for (Index i = 0; i < size; ++i)
+      edges.insert(mesh.face_vertices[first + i], mesh.face_vertices[first + (i + 1) % size]);
+  }
   for (Index f = 0; f < mesh.face_count(); ++f) {
     const Index first = mesh.face_offsets[f];
     triangles.clear();
-    triangulate_face(mesh, f, triangles);
+    split_face(mesh, f, edges, triangles);
     for (const Triangle& triangle : triangles) {
+      for (int i = 0; triangles.size() > 1 && i < 3; ++i) {
+        edges.insert(mesh.face_vertices[first + triangle[i]], mesh.face_vertices[first + triangle[(i + 1) % 3]]);
+      }
       for (const Index i : triangle) {
         result.face_vertices.push_back(mesh.face_vertices[first + i]);
         for (std::size_t a = 0; a < mesh.attributes.size(); ++a) {
