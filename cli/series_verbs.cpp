@@ -1,0 +1,223 @@
+#include "cli/verbs.h"
+
+#include <array>
+#include <sstream>
+
+#include "cli/options.h"
+
+namespace batten::cli {
+
+namespace {
+
+const Names<SeriesMatrix> kMatrices{{"limit", SeriesMatrix::Limit}, {"cotangent", SeriesMatrix::Cotangent}};
+const Names<TexturePreset> kPresets{{"marble", TexturePreset::Marble},
+                                    {"wood", TexturePreset::Wood},
+                                    {"granite", TexturePreset::Granite},
+                                    {"rust", TexturePreset::Rust},
+                                    {"clouds", TexturePreset::Clouds}};
+const Names<MorphOrder> kOrders{{"low-first", MorphOrder::LowFirst}, {"low-last", MorphOrder::LowLast}};
+
+void add_series(CLI::App& verb, SeriesMatrix& matrix) {
+  add_choice(verb, "--weights", matrix, kMatrices,
+             "limit: of the scheme, by valence, the faster; cotangent: by the shape, however it is meshed");
+}
+
+void add_color_moved(CLI::App& verb, PictureArguments& picture) {
+  verb.add_flag_callback(
+      "--color-moved", [&picture] { picture.coloring = Coloring::Moved; },
+      "colour the picture by how far each vertex was moved");
+}
+
+/// "f4f2ee,#3a3f48": colours as they stand in web pages.
+std::string read_colors(const std::string& words, std::vector<std::array<double, 3>>& colors) {
+  colors.clear();
+  std::istringstream text(words);
+  for (std::string word; std::getline(text, word, ',');) {
+    const std::string digits = word.rfind('#', 0) == 0 ? word.substr(1) : word;
+    if (digits.size() != 6 || digits.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos) {
+      return "'" + word + "' is not a colour like ff8800";
+    }
+    const unsigned long number = std::stoul(digits, nullptr, 16);
+    constexpr double kWhite = 255.0;
+    colors.push_back({static_cast<double>(number >> 16U & 255U) / kWhite,
+                      static_cast<double>(number >> 8U & 255U) / kWhite, static_cast<double>(number & 255U) / kWhite});
+  }
+  return colors.empty() ? "needs a colour at least, like ff8800" : "";
+}
+
+void add_noise(CLI::App& verb, TextureArguments& arguments) {
+  PresetOptions& noise = arguments.noise;
+  verb.add_option("--seed", noise.seed, "another number, another texture; the same number, the same texture")
+      ->capture_default_str();
+  verb.add_option("--frequency", noise.frequency, "features along the bounding box's diagonal")
+      ->check(CLI::Range(1e-3, 1e6));
+  verb.add_option("--octaves", noise.octaves, "finer and finer noises to add up")->check(CLI::Range(1, 24));
+  verb.add_option("--gain", noise.gain, "strength of each octave, of the one before; the more, the rougher")
+      ->check(CLI::Range(0.0, 4.0));
+  verb.add_option_function<std::string>(
+          "--colors",
+          [&arguments](const std::string& words) {
+            const std::string wrong = read_colors(words, arguments.colors);
+            if (!wrong.empty()) throw CLI::ValidationError("--colors", wrong);
+          },
+          "the colours to go through, evenly spaced")
+      ->option_text("RRGGBB,RRGGBB,...");
+}
+
+}  // namespace
+
+void add_denoise(CLI::App& app, DenoiseArguments& arguments, int& status) {
+  CLI::App& verb = *app.add_subcommand("denoise", "smooth noise away and leave the shape");
+  add_input(verb, arguments.common);
+  add_output(verb, arguments.common);
+  add_surface(verb, arguments.common);
+  DenoiseOptions& options = arguments.options;
+  CLI::Option* automatic =
+      verb.add_flag("--auto", options.automatic, "measure the noise, and smooth as much as takes it away");
+  CLI::Option* strength =
+      verb.add_option("--strength", arguments.strength, "how long a bump may be, in edge lengths, and still vanish")
+          ->check(CLI::Range(2.0, 1000.0))
+          ->option_text("EDGES")
+          ->excludes(automatic);
+  verb.add_option("--passes", options.passes, "how often to smooth, instead of a strength")
+      ->check(CLI::Range(0, 1000000))
+      ->capture_default_str()
+      ->excludes(automatic)
+      ->excludes(strength);
+  verb.add_option("-m", options.m, "the larger, the sharper between noise and shape: a pass keeps m + 1 terms")
+      ->check(CLI::Range(0, 100))
+      ->capture_default_str()
+      ->excludes(automatic);
+  add_series(verb, options.matrix);
+  verb.add_flag("--keep-boundary", options.keep_boundary, "leave boundary vertices where they are");
+  verb.add_flag("--keep-volume", options.keep_volume, "scale closed components to the volume that they had");
+  verb.add_option_function<double>(
+          "--features",
+          [&options](const double& degrees) {
+            options.features = true;
+            options.feature_options.degrees = degrees;
+          },
+          "find edges that are sharper than this, and smooth along them only, as along creases")
+      ->check(CLI::Range(1.0, 179.0))
+      ->option_text("DEGREES");
+  add_picture(verb, arguments.picture);
+  add_color_moved(verb, arguments.picture);
+  verb.callback([&] { status = run_denoise(arguments); });
+}
+
+void add_sharpen(CLI::App& app, SharpenArguments& arguments, int& status) {
+  CLI::App& verb = *app.add_subcommand("sharpen", "make a mesh's detail stronger");
+  add_input(verb, arguments.common);
+  add_output(verb, arguments.common);
+  add_surface(verb, arguments.common);
+  SharpenOptions& options = arguments.options;
+  verb.add_option("--amount", options.amount, "of the detail that a pass adds")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  verb.add_option("--passes", options.passes, "how often")->check(CLI::Range(0, 1000))->capture_default_str();
+  verb.add_option("-m", options.m, "first term that is added: the larger, the finer the detail that grows")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  verb.add_option("-n", options.n, "last term that is added, -m or more")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  verb.add_option("--most-growth", options.most_growth,
+                  "no detail becomes larger than so many times; the amount is lowered for it")
+      ->check(CLI::Range(1.0, 1e9))
+      ->capture_default_str();
+  add_series(verb, options.matrix);
+  verb.add_flag("--keep-boundary", options.keep_boundary, "leave boundary vertices where they are");
+  verb.add_flag_callback(
+      "--no-check", [&options] { options.check = false; }, "do not look for faces that pass through each other");
+  add_picture(verb, arguments.picture);
+  add_color_moved(verb, arguments.picture);
+  verb.callback([&] { status = run_sharpen(arguments); });
+}
+
+void add_bands(CLI::App& app, BandsArguments& arguments, int& status) {
+  CLI::App& verb = *app.add_subcommand("bands", "split a mesh into bands, from bumps to shape, and mix them anew");
+  add_input(verb, arguments.common);
+  add_output(verb, arguments.common);
+  add_surface(verb, arguments.common);
+  CLI::Option* count = verb.add_option("--count", arguments.count, "of bands; each has bumps twice as long as the last")
+                           ->check(CLI::Range(2, 12))
+                           ->capture_default_str();
+  verb.add_option("--gains", arguments.gains, "how strong each band comes out, finest first: one number a band")
+      ->delimiter(',')
+      ->excludes(count)
+      ->option_text("G1,G2,...");
+  add_series(verb, arguments.matrix);
+  verb.add_flag("--keep-boundary", arguments.keep_boundary, "leave boundary vertices where they are");
+  verb.add_flag("--displacements", arguments.displacements,
+                "write every band too, as attributes band_1, band_2, ... of three numbers a vertex (PLY)");
+  verb.add_option("--plot", arguments.plot, "plot the bands' sizes")
+      ->check(has_extension({".png", ".svg"}))
+      ->option_text("FILE.png|.svg");
+  add_picture(verb, arguments.picture);
+  add_color_moved(verb, arguments.picture);
+  verb.callback([&] { status = run_bands(arguments); });
+}
+
+void add_texture(CLI::App& app, TextureArguments& arguments, int& status) {
+  CLI::App& verb = *app.add_subcommand("texture", "colour the limit surface by noise: marble, wood and the like");
+  add_input(verb, arguments.common);
+  add_output(verb, arguments.common);
+  add_surface(verb, arguments.common);
+  add_choice(verb, "--preset", arguments.preset, kPresets, "what it looks like; plain noise if not given");
+  add_noise(verb, arguments);
+  CLI::Option* levels =
+      verb.add_option("--levels", arguments.levels, "refinement; as many as make some 400,000 faces, if not given")
+          ->check(CLI::Range(0, 12));
+  verb.add_flag("--flat", arguments.flat, "colour the mesh as it is, not its limit surface")->excludes(levels);
+  add_length(verb, "--displace", arguments.displace,
+             "also move the surface along its normals by so much times the noise");
+  verb.add_option("--gallery", arguments.gallery, "draw all presets side by side")
+      ->check(has_extension({".png"}))
+      ->option_text("FILE.png");
+  add_picture(verb, arguments.picture);
+  verb.callback([&] { status = run_texture(arguments); });
+}
+
+void add_morph(CLI::App& app, MorphArguments& arguments, int& status) {
+  CLI::App& verb =
+      *app.add_subcommand("morph", "from one mesh to another of the same connectivity, in frames or a GLB");
+  add_input(verb, arguments.common, "FROM");
+  verb.add_option("TO", arguments.target, "mesh file, with the same faces or with --resample")->required();
+  add_output(verb, arguments.common);
+  add_surface(verb, arguments.common);
+  CLI::Option* frames = verb.add_option("--frames", arguments.frames,
+                                        "so many files, NAME-000, NAME-001, ...; 11 if not given. In a .glb "
+                                        "key frames of one animation, 24")
+                            ->check(CLI::Range(2, 100000));
+  verb.add_option("--at", arguments.at, "one file: how it is at this time; 0 is FROM, 1 is TO")
+      ->check(CLI::Range(0.0, 1.0))
+      ->option_text("0..1")
+      ->excludes(frames);
+  add_choice(verb, "--order", arguments.options.order, kOrders,
+             "what moves first: the overall shape, or the detail; low-first if not given");
+  verb.add_option(
+          "--stages", arguments.options.stages,
+          "how far overall shape and detail are apart in time; each takes four times the work; 0: straight lines")
+      ->check(CLI::Range(0, 8))
+      ->capture_default_str();
+  verb.add_option("--terms", arguments.options.m,
+                  "terms of the mesh series after the first in a smoothing; Lai and Cheng's m")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  verb.add_option("--rho", arguments.rho, "Lai and Cheng's own sequence, which comes near to TO so fast")
+      ->check(CLI::Range(1e-6, 1.0))
+      ->option_text("0..1");
+  verb.add_flag_callback(
+      "--no-align", [&] { arguments.align = false; }, "with --rho: do not lay the centroids on each other first");
+  verb.add_option("--seconds", arguments.seconds, "how long a .glb's animation is")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  verb.add_option("--levels", arguments.levels,
+                  "refinement of a .glb's surface; 3 if not given, fewer for a large mesh")
+      ->check(CLI::Range(0, 12));
+  verb.add_flag("--resample", arguments.resample, "give TO's surface the faces of FROM first; both must lie close");
+  add_picture(verb, arguments.picture);
+  verb.callback([&] { status = run_morph(arguments); });
+}
+
+}  // namespace batten::cli
