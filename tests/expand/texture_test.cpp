@@ -46,7 +46,9 @@ TEST(ColorRamp, HasAContinuousSecondDerivative) {
   const ColorRamp ramp({{0.2, 0.4, 0.6}, {0.5, 0.3, 0.5}, {0.4, 0.6, 0.3}, {0.7, 0.5, 0.4}, {0.3, 0.3, 0.3}});
   const double step = 1e-4;
   for (const double knot : {0.25, 0.5, 0.75}) {
-    const auto bend = [&](double at) { return ramp.color(at - step) - 2.0 * ramp.color(at) + ramp.color(at + step); };
+    const auto bend = [&](double at) -> Eigen::RowVector3d {
+      return ramp.color(at - step) - 2.0 * ramp.color(at) + ramp.color(at + step);
+    };
     // A jump would be of the step's second power times the curvature, 1e-7; what is left is the third.
     EXPECT_LT((bend(knot - step) - bend(knot + step)).norm(), 1e-9);
   }
