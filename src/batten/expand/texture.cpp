@@ -65,7 +65,11 @@ Points places_of(ConstValuesRef points) {
   const Eigen::RowVector3d centre = 0.5 * lowest + 0.5 * highest;
   const Eigen::RowVector3d sides = highest - lowest;
   std::array<int, 3> axes{0, 1, 2};
-  std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return sides[a] > sides[b]; });
+  // Sides that rounding alone tells apart keep their order, or a model would look different in another unit.
+  constexpr double kLonger = 1.0 + 1e-9;
+  for (const int k : {0, 1, 0}) {
+    if (sides[axes[k + 1]] > kLonger * sides[axes[k]]) std::swap(axes[k], axes[k + 1]);
+  }
   const double diagonal = sides.norm() > 0.0 ? sides.norm() : 1.0;
   for (int k = 0; k < 3; ++k) places.col(k) = (points.col(axes[k]).array() - centre[axes[k]]) / diagonal;
   return places;
