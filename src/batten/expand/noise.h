@@ -28,7 +28,8 @@ struct SmoothingChoice {
 
 /// The m in {0, 1, 2} and the number of passes, 0 .. 800, with the least expected error: what is removed, beside what
 /// noise of this deviation would lose (Stein's unbiased estimate, 1981, key S81; its trace by one vector of random
-/// signs, the same at every run). Takes up to 4,800 applications of A, a few dozen where there is little noise. Throws as estimate_noise.
+/// signs, the same at every run). Takes up to 4,800 applications of A, a few dozen where there is little noise. Throws
+/// as estimate_noise.
 SmoothingChoice choose_smoothing(const MeshSeries& series, ConstValuesRef points, ConstValuesRef normals,
                                  double deviation, const Progress& progress = {});
 
