@@ -104,7 +104,8 @@ Scene surface_scene(const Subject& subject, Coloring coloring, const Progress& p
   Scheme scheme = subject.scheme;
   const Values colors = vertex_colors(subject.control);
   Values values(subject.control.points.rows(), 3 + colors.cols());
-  values << subject.control.points, colors;
+  values.leftCols(3) = subject.control.points;
+  values.rightCols(colors.cols()) = colors;
   for (int level = 0; level < levels; ++level) {
     Refinement step(topology, scheme, {}, progress);
     values = step.apply(values, progress);
