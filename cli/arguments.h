@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "batten/expand/denoise.h"
 #include "batten/expand/morph.h"
@@ -107,6 +108,13 @@ struct DistanceArguments {
   PictureArguments picture;
   std::string scan;
 };
+
+/// The presets' names, in the order of the gallery.
+inline constexpr std::pair<TexturePreset, const char*> kTexturePresets[] = {{TexturePreset::Marble, "marble"},
+                                                                            {TexturePreset::Wood, "wood"},
+                                                                            {TexturePreset::Granite, "granite"},
+                                                                            {TexturePreset::Rust, "rust"},
+                                                                            {TexturePreset::Clouds, "clouds"}};
 
 struct TextureArguments {
   CommonArguments common;

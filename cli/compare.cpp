@@ -13,14 +13,14 @@ namespace {
 constexpr int kMostRuns = 5;
 constexpr double kEnoughSeconds = 0.25;
 
-struct Contestant {
+struct ComparedMethod {
   const char* name;
   SolveMethod method;
 };
-constexpr Contestant kContestants[] = {{"Batten", SolveMethod::Auto},
-                                       {"Thall 2002", SolveMethod::Jacobi},
-                                       {"Lai and Cheng 2006", SolveMethod::Richardson},
-                                       {"direct", SolveMethod::Direct}};
+constexpr ComparedMethod kComparedMethods[] = {{"Batten", SolveMethod::Auto},
+                                               {"Thall 2002", SolveMethod::Jacobi},
+                                               {"Lai and Cheng 2006", SolveMethod::Richardson},
+                                               {"direct", SolveMethod::Direct}};
 constexpr double kThallsOmega = 0.5;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -28,7 +28,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 /// Built once; solved until that took a quarter of a second or five runs, the fastest counts.
-MethodResult run(const Contestant& contestant, const Topology& topology, const Scheme& scheme,
+MethodResult run(const ComparedMethod& contestant, const Topology& topology, const Scheme& scheme,
                  InterpolateOptions options, ConstValuesRef targets, bool quiet) {
   options.method = contestant.method;
   options.omega = kThallsOmega;
@@ -61,7 +61,7 @@ MethodResult run(const Contestant& contestant, const Topology& topology, const S
 std::vector<MethodResult> compare_methods(const Topology& topology, const Scheme& scheme,
                                           const InterpolateOptions& options, ConstValuesRef targets, bool quiet) {
   std::vector<MethodResult> results;
-  for (const Contestant& contestant : kContestants) {
+  for (const ComparedMethod& contestant : kComparedMethods) {
     results.push_back(run(contestant, topology, scheme, options, targets, quiet));
   }
   return results;

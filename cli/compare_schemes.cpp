@@ -14,14 +14,14 @@
 namespace batten::cli {
 namespace {
 
-struct Contestant {
+struct ComparedScheme {
   const char* name;
   SchemeKind kind;
 };
-constexpr std::array<Contestant, 4> kContestants{{{"Butterfly", SchemeKind::Butterfly},
-                                                  {"Modified Butterfly", SchemeKind::ModifiedButterfly},
-                                                  {"interpolated Loop", SchemeKind::Loop},
-                                                  {"interpolated Catmull-Clark", SchemeKind::CatmullClark}}};
+constexpr std::array<ComparedScheme, 4> kComparedSchemes{{{"Butterfly", SchemeKind::Butterfly},
+                                                          {"Modified Butterfly", SchemeKind::ModifiedButterfly},
+                                                          {"interpolated Loop", SchemeKind::Loop},
+                                                          {"interpolated Catmull-Clark", SchemeKind::CatmullClark}}};
 
 /// One surface through the vertices, as fine mesh on it.
 struct Compared {
@@ -74,7 +74,7 @@ void build(const Topology& topology, const Mesh& mesh, int levels, Compared& com
   compared.mesh.points = points;
 }
 
-Compared compare(const Contestant& contestant, const SubdivideArguments& arguments, const Topology& topology,
+Compared compare(const ComparedScheme& contestant, const SubdivideArguments& arguments, const Topology& topology,
                  const Mesh& mesh, int levels) {
   Compared compared;
   compared.name = contestant.name;
@@ -173,7 +173,7 @@ int run_compare_schemes(const SubdivideArguments& arguments) {
   const int levels = arguments.levels < 0 ? picture_levels(topology) : arguments.levels;
   stages.finish("topology");
   std::vector<Compared> all;
-  for (const Contestant& contestant : kContestants) {
+  for (const ComparedScheme& contestant : kComparedSchemes) {
     all.push_back(compare(contestant, arguments, topology, mesh, levels));
     stages.finish(contestant.name);
   }

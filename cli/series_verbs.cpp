@@ -10,12 +10,13 @@ namespace batten::cli {
 namespace {
 
 const Names<SeriesMatrix> kMatrices{{"limit", SeriesMatrix::Limit}, {"cotangent", SeriesMatrix::Cotangent}};
-const Names<TexturePreset> kPresets{{"marble", TexturePreset::Marble},
-                                    {"wood", TexturePreset::Wood},
-                                    {"granite", TexturePreset::Granite},
-                                    {"rust", TexturePreset::Rust},
-                                    {"clouds", TexturePreset::Clouds}};
 const Names<MorphOrder> kOrders{{"low-first", MorphOrder::LowFirst}, {"low-last", MorphOrder::LowLast}};
+
+Names<TexturePreset> preset_names() {
+  Names<TexturePreset> names;
+  for (const auto& [preset, name] : kTexturePresets) names[name] = preset;
+  return names;
+}
 
 void add_series(CLI::App& verb, SeriesMatrix& matrix) {
   add_choice(verb, "--weights", matrix, kMatrices,
@@ -163,7 +164,7 @@ void add_texture(CLI::App& app, TextureArguments& arguments, int& status) {
   add_input(verb, arguments.common);
   add_output(verb, arguments.common);
   add_surface(verb, arguments.common);
-  add_choice(verb, "--preset", arguments.preset, kPresets, "what it looks like; plain noise if not given");
+  add_choice(verb, "--preset", arguments.preset, preset_names(), "what it looks like; plain noise if not given");
   add_noise(verb, arguments);
   CLI::Option* levels =
       verb.add_option("--levels", arguments.levels, "refinement; as many as make some 400,000 faces, if not given")

@@ -9,14 +9,8 @@
 namespace batten::cli {
 namespace {
 
-constexpr std::pair<TexturePreset, const char*> kPresets[] = {{TexturePreset::Marble, "marble"},
-                                                              {TexturePreset::Wood, "wood"},
-                                                              {TexturePreset::Granite, "granite"},
-                                                              {TexturePreset::Rust, "rust"},
-                                                              {TexturePreset::Clouds, "clouds"}};
-
 std::string name_of(const std::optional<TexturePreset>& preset) {
-  for (const auto& named : kPresets) {
+  for (const auto& named : kTexturePresets) {
     if (preset == named.first) return named.second;
   }
   return "noise";
@@ -63,7 +57,7 @@ Subject subject_of(const Canvas& canvas, const Mesh& colored) {
 
 void draw_gallery(const TextureArguments& arguments, const Canvas& canvas) {
   std::vector<Subject> subjects;
-  for (const auto& named : kPresets) {
+  for (const auto& named : kTexturePresets) {
     subjects.push_back(
         subject_of(canvas, textured(canvas, preset_texture(named.first, arguments.noise), arguments.common.quiet)));
     subjects.back().after_caption = named.second;

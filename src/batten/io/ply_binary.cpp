@@ -121,7 +121,7 @@ class BinaryReader {
     const std::size_t row_bytes = element.smallest_row();
     if (row_bytes == 0 || element.count <= static_cast<std::size_t>(end_ - at_) / row_bytes) return;
     fail(at_, ErrorCode::BadFile,
-         "the header promises " + std::to_string(element.count) + " rows of " + quoted(element.name) + ", each of " +
+         "the header promises " + std::to_string(element.count) + " rows of " + in_quotes(element.name) + ", each of " +
              std::to_string(row_bytes) + " bytes or more, but fewer are left; the file is cut short");
   }
 

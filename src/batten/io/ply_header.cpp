@@ -50,7 +50,7 @@ class HeaderParser {
     } else if (keyword == "property") {
       property();
     } else if (!keyword.empty() && keyword != "end_header") {
-      scanner_.fail(ErrorCode::BadFile, "unknown header line " + quoted(keyword));
+      scanner_.fail(ErrorCode::BadFile, "unknown header line " + in_quotes(keyword));
     }
     scanner_.finish_line();
     return keyword == "end_header";
@@ -106,7 +106,7 @@ class HeaderParser {
     for (const TypeName& known : kTypeNames) {
       if (name == known.name) return known.type;
     }
-    scanner_.fail(ErrorCode::BadFile, "unknown property type " + quoted(name));
+    scanner_.fail(ErrorCode::BadFile, "unknown property type " + in_quotes(name));
   }
 
   Scanner scanner_;

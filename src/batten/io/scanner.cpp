@@ -4,7 +4,7 @@
 
 namespace batten::io {
 
-std::string quoted(std::string_view token) {
+std::string in_quotes(std::string_view token) {
   constexpr std::size_t kShown = 40;
   std::string text(token.substr(0, kShown));
   std::replace_if(
@@ -50,7 +50,7 @@ void Scanner::skip_line() {
 
 void Scanner::fail_token(const char* wanted, const char* what) const {
   Scanner copy(*this);
-  fail(ErrorCode::BadFile, quoted(copy.word()) + " is not " + wanted + " (" + what + "); correct this line");
+  fail(ErrorCode::BadFile, in_quotes(copy.word()) + " is not " + wanted + " (" + what + "); correct this line");
 }
 
 void Scanner::fail_missing(const char* what) const {
@@ -60,7 +60,7 @@ void Scanner::fail_missing(const char* what) const {
 void Scanner::fail_not_finite(const char* token, const char* what) const {
   const std::string_view shown(token, static_cast<std::size_t>(here_ - token));
   throw Fault{token, ErrorCode::NotFinite,
-              quoted(shown) + " is not a finite double (" + what + "); remove the vertex or give it a place"};
+              in_quotes(shown) + " is not a finite double (" + what + "); remove the vertex or give it a place"};
 }
 
 }  // namespace batten::io

@@ -13,7 +13,7 @@
 namespace batten::io {
 
 /// A token as a message can show it: short, in quotes, and without what a terminal would obey.
-std::string quoted(std::string_view token);
+std::string in_quotes(std::string_view token);
 
 /// Tokens are parted by blanks (space, tab, CR, form feed) and, where asked, by one more character. A line ends at LF;
 /// a backslash before LF continues it; a token that starts with '#' begins a comment, which a backslash never continues

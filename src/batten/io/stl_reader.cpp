@@ -150,7 +150,7 @@ class TextParser {
 
   bool statement(const std::string& keyword) {
     if (corners_ > 0 && keyword != "vertex" && keyword != "endloop") {
-      scanner_.fail(ErrorCode::BadFile, "the vertices before " + quoted(keyword) + " lack an endloop; add it");
+      scanner_.fail(ErrorCode::BadFile, "the vertices before " + in_quotes(keyword) + " lack an endloop; add it");
     }
     if (keyword == "vertex") {
       vertex();

@@ -90,10 +90,8 @@ NetTables<Net> make_tables(double spline_unit, double half_unit) {
   return tables;
 }
 
-struct CubicJet {
-  double value[4], first[4], second[4];
-};
-CubicJet cubic_jet(double t) {
+/// Bernstein polynomials.
+CubicJet bernstein_jet(double t) {
   const double s = 1.0 - t;
   return {{s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t},
           {-3.0 * s * s, 3.0 * s * (s - 2.0 * t), 3.0 * t * (2.0 * s - t), 3.0 * t * t},
@@ -113,8 +111,8 @@ const NetTables<TriangleNet>& triangle_tables() {
 }
 
 NetJet QuadNet::jet(const Double4* net, double u, double v) {
-  const CubicJet along = cubic_jet(u);
-  const CubicJet across = cubic_jet(v);
+  const CubicJet along = bernstein_jet(u);
+  const CubicJet across = bernstein_jet(v);
   NetJet jet{};
   for (int j = 0; j < 4; ++j) {
     const Double4* row = net + 4 * j;

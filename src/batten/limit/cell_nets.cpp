@@ -9,9 +9,6 @@ namespace batten {
 
 namespace {
 
-/// After so many levels irregular faces are the ones around single vertices, whose kinds are few.
-constexpr int kLevels = 2;
-
 /// Sums of a triangle patch's control points.
 struct LatticeSum {
   int count = 0;
@@ -119,7 +116,8 @@ void halve_quad(const double* from, std::array<CellNet, 4>& children) {
 
 CellNets::CellNets(const Topology& topology, const Scheme& scheme, ConstValuesRef control)
     : first_(needs_first_step(topology, scheme) ? std::make_unique<Refinement>(topology, scheme) : nullptr),
-      pieces_(first_ == nullptr ? topology : first_->child(), scheme.after_first_step(), kLevels, Pieces::Rest::Rings),
+      pieces_(first_ == nullptr ? topology : first_->child(), scheme.after_first_step(), kRingPieceLevels,
+              Pieces::Rest::Rings),
       steps_(scheme),
       base_values_(first_ == nullptr ? Values(control) : first_->apply(control)) {
   values_ = std::make_unique<LevelValues>(pieces_, base_values_);
@@ -138,15 +136,15 @@ void CellNets::root(Index face, CellNet& net) const {
   find(net);
 }
 
-/// The control points of a cell of up to kLevels levels, where it is one piece.
+/// The control points of a cell of up to kRingPieceLevels levels, where it is one piece.
 void CellNets::find(CellNet& net) const {
   net.kind = CellNet::Kind::Several;
-  constexpr double kSide = 1 << kLevels;
+  constexpr double kSide = 1 << kRingPieceLevels;
   const Piece* piece = pieces_.begin(net.face);
   const auto x = static_cast<Index>(std::lround(net.u * kSide));
   const auto y = static_cast<Index>(std::lround(net.v * kSide));
   while (piece != pieces_.end(net.face) && (piece->x != x || piece->y != y || piece->turned != net.turned ||
-                                            piece->size != (1 << (kLevels - net.level)))) {
+                                            piece->size != (1 << (kRingPieceLevels - net.level)))) {
     ++piece;
   }
   if (piece == pieces_.end(net.face)) return;

@@ -14,7 +14,7 @@ namespace batten {
 namespace {
 
 using Point = Eigen::Vector3d;
-using Corners = std::array<Point, 4>;
+using CornerPoints = std::array<Point, 4>;
 
 /// So many levels below an irregular cell are looked at before the control points' hull has to do: there it is some
 /// tenth of what the cell itself strays.
@@ -46,11 +46,11 @@ class CellWalk {
         levels_(static_cast<std::size_t>(CellForest::kMostLevels + kLookAhead) + 4) {}
 
   /// Appends a flag a cell, depth first: whether it is cut.
-  void walk(Index face, const Corners& corners, Buffer<std::uint8_t>& flags) {
+  void walk(Index face, const CornerPoints& corners, Buffer<std::uint8_t>& flags) {
     nets_.root(face, root_);
     visit(root_, corners, curve_sides(face), flags);
   }
-  bool exceeds(Index face, const Corners& corners) {
+  bool exceeds(Index face, const CornerPoints& corners) {
     nets_.root(face, root_);
     return beyond(root_, corners, curve_sides(face));
   }
@@ -75,8 +75,8 @@ class CellWalk {
     const CurveSides own = 1U << child | 1U << (child + corners_ - 1) % corners_;
     return curves & (own | own << 4);
   }
-  Corners child_corners(const Corners& corners, const Expansion& expansion, int child) const {
-    Corners result = corners;
+  CornerPoints child_corners(const CornerPoints& corners, const Expansion& expansion, int child) const {
+    CornerPoints result = corners;
     for (int k = 0; k < corners_; ++k) {
       const int next = k + 1 == corners_ ? 0 : k + 1;
       if (child == corners_) {
@@ -98,13 +98,13 @@ class CellWalk {
     return surface_.jet({net.face, net.u + size * u, net.v + size * v}).point;
   }
   void expand(const CellNet& net, Expansion& expansion) const;
-  double deviation(const Corners& corners, const Expansion& expansion, CurveSides curves) const;
-  double centre_deviation(const CellNet& net, const Corners& corners, const Expansion& expansion) const;
+  double deviation(const CornerPoints& corners, const Expansion& expansion, CurveSides curves) const;
+  double centre_deviation(const CellNet& net, const CornerPoints& corners, const Expansion& expansion) const;
   double hull_bound(const CellNet& net, CurveSides curves) const;
-  double inner_bound(const Corners& corners, CurveSides curves, int look_ahead, std::size_t depth);
-  double bound(const CellNet& net, const Corners& corners, CurveSides curves, int look_ahead, std::size_t depth);
-  bool beyond(const CellNet& net, const Corners& corners, CurveSides curves);
-  void visit(const CellNet& net, const Corners& corners, CurveSides curves, Buffer<std::uint8_t>& flags);
+  double inner_bound(const CornerPoints& corners, CurveSides curves, int look_ahead, std::size_t depth);
+  double bound(const CellNet& net, const CornerPoints& corners, CurveSides curves, int look_ahead, std::size_t depth);
+  bool beyond(const CellNet& net, const CornerPoints& corners, CurveSides curves);
+  void visit(const CellNet& net, const CornerPoints& corners, CurveSides curves, Buffer<std::uint8_t>& flags);
 
   const CellNets& nets_;
   const LimitSurface& surface_;
@@ -143,7 +143,7 @@ void CellWalk::expand(const CellNet& net, Expansion& expansion) const {
 }
 
 /// How far the points one level deeper stand from the cell's own faces, whichever way it is cut in two.
-double CellWalk::deviation(const Corners& corners, const Expansion& expansion, CurveSides curves) const {
+double CellWalk::deviation(const CornerPoints& corners, const Expansion& expansion, CurveSides curves) const {
   const Point normal = (corners_ == 4 ? (corners[2] - corners[0]).cross(corners[3] - corners[1])
                                       : (corners[1] - corners[0]).cross(corners[2] - corners[0]))
                            .normalized();
@@ -162,7 +162,7 @@ double CellWalk::deviation(const Corners& corners, const Expansion& expansion, C
 }
 
 /// A triangle's three quads around its centre are not its children: how far they stand from these.
-double CellWalk::centre_deviation(const CellNet& net, const Corners& corners, const Expansion& expansion) const {
+double CellWalk::centre_deviation(const CellNet& net, const CornerPoints& corners, const Expansion& expansion) const {
   if (corners_ == 4) return 0.0;
   const std::array<Point, 4>& middles = expansion.middles;
   const Point normal = (middles[1] - middles[0]).cross(middles[2] - middles[0]).normalized();
@@ -191,7 +191,7 @@ double CellWalk::hull_bound(const CellNet& net, CurveSides curves) const {
 }
 
 /// The largest bound of the children, which levels_[depth] has.
-double CellWalk::inner_bound(const Corners& corners, CurveSides curves, int look_ahead, std::size_t depth) {
+double CellWalk::inner_bound(const CornerPoints& corners, CurveSides curves, int look_ahead, std::size_t depth) {
   double worst = 0.0;
   for (int k = 0; k < 4; ++k) {
     const Expansion& expansion = levels_[depth];
@@ -202,7 +202,7 @@ double CellWalk::inner_bound(const Corners& corners, CurveSides curves, int look
 }
 
 /// How far the surface of a cell strays from faces over it: what its children's faces stray, and its children's own.
-double CellWalk::bound(const CellNet& net, const Corners& corners, CurveSides curves, int look_ahead,
+double CellWalk::bound(const CellNet& net, const CornerPoints& corners, CurveSides curves, int look_ahead,
                        std::size_t depth) {
   if (net.kind == CellNet::Kind::Patch) return patch_bound(net, curves);
   if (net.kind == CellNet::Kind::Ring && look_ahead <= 0) return hull_bound(net, curves);
@@ -212,7 +212,7 @@ double CellWalk::bound(const CellNet& net, const Corners& corners, CurveSides cu
 }
 
 /// Leaves levels_ with the children of an irregular cell.
-bool CellWalk::beyond(const CellNet& net, const Corners& corners, CurveSides curves) {
+bool CellWalk::beyond(const CellNet& net, const CornerPoints& corners, CurveSides curves) {
   const auto depth = static_cast<std::size_t>(net.level);
   if (net.kind == CellNet::Kind::Patch) {
     // Quads within a cell are half as wide; a triangle's reach from a corner to the centre, up to two thirds.
@@ -229,7 +229,7 @@ bool CellWalk::beyond(const CellNet& net, const Corners& corners, CurveSides cur
   return own > rule_.tolerance || own + inner_bound(corners, curves, kLookAhead, depth) > rule_.tolerance;
 }
 
-void CellWalk::visit(const CellNet& net, const Corners& corners, CurveSides curves, Buffer<std::uint8_t>& flags) {
+void CellWalk::visit(const CellNet& net, const CornerPoints& corners, CurveSides curves, Buffer<std::uint8_t>& flags) {
   if (leaves_ > rule_.max_leaves) return;
   const bool wanted = beyond(net, corners, curves);
   const bool cut = wanted && net.level < rule_.max_level;
@@ -249,8 +249,8 @@ void CellWalk::visit(const CellNet& net, const Corners& corners, CurveSides curv
   }
 }
 
-Corners corners_of(const CellForest& forest, const Points& points, Index face) {
-  Corners corners;
+CornerPoints corners_of(const CellForest& forest, const Points& points, Index face) {
+  CornerPoints corners;
   for (int k = 0; k < forest.corner_count(); ++k) corners[k] = points.row(forest.corner(face, k)).transpose();
   return corners;
 }

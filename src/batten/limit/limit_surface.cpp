@@ -20,11 +20,6 @@ namespace batten {
 
 namespace {
 
-/// After so many levels irregular faces are the ones around single vertices, whose kinds are few.
-constexpr int kLevels = 2;
-/// A double has no smaller fractions of a face: here is the vertex itself.
-constexpr int kMostHalvings = 53;
-
 /// So many halvings of irregular faces are kept at most, and so many points (of 32 bytes) for each vertex of the base:
 /// all kept halvings where few faces are irregular, one or two where all are.
 constexpr int kMostKeptHalvings = 8;
@@ -114,7 +109,7 @@ struct LimitSurface::Parts {
         scheme(scheme_in),
         quads(scheme_in.kind == SchemeKind::CatmullClark),
         first(needs_first_step(topology, scheme_in) ? std::make_unique<Refinement>(topology, scheme_in) : nullptr),
-        pieces(first == nullptr ? topology : first->child(), scheme_in.after_first_step(), kLevels,
+        pieces(first == nullptr ? topology : first->child(), scheme_in.after_first_step(), kRingPieceLevels,
                Pieces::Rest::Rings),
         steps(scheme_in) {
     FaceRing ring;
@@ -210,7 +205,7 @@ const Piece& LimitSurface::Parts::locate(const SurfacePlace& place, double& u, d
   u = place.u;
   v = place.v;
   if (piece->level == 0) return *piece;
-  const double steps_per_side = 1 << kLevels;
+  const double steps_per_side = 1 << kRingPieceLevels;
   const double x = place.u * steps_per_side;
   const double y = place.v * steps_per_side;
   // Rounding on a line between triangles may leave a place outside all of them: the nearest one will do.
@@ -284,7 +279,7 @@ void LimitSurface::Parts::set_on_ring(const Piece& piece, double u, double v, do
       node = child.node;
     }
   }
-  while (at.kind != RingSteps::kPatch && halvings < kMostHalvings) {
+  while (at.kind != RingSteps::kPatch && halvings < kHalvingsToVertex) {
     const Approach near = approach(quads, u, v);
     const int to_corner = std::min(near.halvings, descents->most_to_corner(at.kind, near.corner));
     scale *= approach_corner(quads, near.corner, to_corner, u, v);
@@ -322,7 +317,7 @@ void LimitSurface::Parts::set(const SurfacePlace& place, DescentScratch& scratch
   double u = 0.0;
   double v = 0.0;
   const Piece& piece = locate(place, u, v);
-  const double size = static_cast<double>(1 << kLevels) / piece.size;
+  const double size = static_cast<double>(1 << kRingPieceLevels) / piece.size;
   const double scale = piece.turned ? -size : size;
   if (piece.kind != Piece::Kind::Patch) return set_on_ring(piece, u, v, scale, scratch, jet);
   if (tree_starts[number_of(piece)] == kOpenPatch) return set_on_open_patch(piece, u, v, scale, jet);

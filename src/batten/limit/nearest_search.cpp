@@ -14,7 +14,7 @@ namespace {
 constexpr int kMostVisits = 20000;
 /// Below it Newton's method proves nothing in reasonable time.
 constexpr double kLeastModulus = 0.02;
-constexpr int kMostSteps = 12;
+constexpr int kMostCellSteps = 12;
 
 }  // namespace
 
@@ -166,7 +166,7 @@ bool NearestSearch<Net>::descend(const Double4* net, const NetFrame<Net>& frame,
   if (provable) frame.guess(u, v);
   bool best_here = false;
   double step = 1.0;
-  for (int i = 0; i < (provable ? kMostSteps : 3); ++i) {
+  for (int i = 0; i < (provable ? kMostCellSteps : 3); ++i) {
     const NetJet jet = Net::jet(net, u, v);
     best_here = offer(jet.point, placement.u(u), placement.v(v)) || best_here;
     DistanceModel model(jet);

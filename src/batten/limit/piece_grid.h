@@ -7,6 +7,10 @@
 
 namespace batten {
 
+/// The levels of pieces whose rest are rings: after so many, irregular faces are the ones around single vertices, whose
+/// kinds are few.
+inline constexpr int kRingPieceLevels = 2;
+
 /// A face's points in planes of their own, one a column: (i, j) at (steps + 1) j + i.
 template <typename Scalar>
 struct PieceGrid {

@@ -4,11 +4,8 @@ namespace batten {
 
 namespace {
 
-struct CubicJet {
-  double value[4], first[4], second[4];
-};
-
-inline CubicJet cubic_jet(double t) {
+/// B-spline basis functions of one knot span.
+inline CubicJet spline_jet(double t) {
   constexpr double kSixth = 1.0 / 6.0;
   const double s = 1.0 - t;
   return {{kSixth * (s * s * s), 4.0 * kSixth + t * t * (0.5 * t - 1.0), 4.0 * kSixth + s * s * (0.5 * s - 1.0),
@@ -20,8 +17,8 @@ inline CubicJet cubic_jet(double t) {
 }  // namespace
 
 void quad_jet_weights(double u, double v, JetWeights& weights) {
-  const CubicJet along = cubic_jet(u);
-  const CubicJet across = cubic_jet(v);
+  const CubicJet along = spline_jet(u);
+  const CubicJet across = spline_jet(v);
   for (int j = 0; j < 4; ++j) {
     for (int i = 0; i < 4; ++i) {
       weights.value[4 * j + i] = along.value[i] * across.value[j];
@@ -51,8 +48,8 @@ void triangle_jet_weights(double u, double v, JetWeights& weights) {
 }
 
 void quad_jet(double u, double v, const Double4* points, const Index* rows, PatchJet& jet) {
-  const CubicJet along = cubic_jet(u);
-  const CubicJet across = cubic_jet(v);
+  const CubicJet along = spline_jet(u);
+  const CubicJet across = spline_jet(v);
   PatchJet total{};  // a local, which points cannot overlap with: it stays in registers
   for (int j = 0; j < 4; ++j) {
     const Double4 p0 = points[rows[4 * j]];

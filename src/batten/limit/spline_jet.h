@@ -18,6 +18,11 @@ void quad_jet_weights(double u, double v, JetWeights& weights);
 /// Twelve weights, in the order of kTriangleLattice. u, v, 1 - u - v >= 0.
 void triangle_jet_weights(double u, double v, JetWeights& weights);
 
+/// Four cubic basis functions with their derivatives.
+struct CubicJet {
+  double value[4], first[4], second[4];
+};
+
 /// Value, du, dv, duu, duv, dvv.
 using PatchJet = std::array<Double4, 6>;
 

@@ -8,7 +8,7 @@ namespace batten {
 
 namespace {
 
-constexpr int kMostSteps = 24;
+constexpr int kMostSideSteps = 24;
 
 template <typename Net>
 bool inside(double u, double v) {
@@ -140,7 +140,7 @@ bool find_least_on_side(const Double4* net, int side, double& t) {
   const double modulus = slopes.least_squared() + least_dot(points, bends);
   if (!(modulus > 0.0)) return false;
   t = 0.5;
-  for (int i = 0; i < kMostSteps; ++i) {
+  for (int i = 0; i < kMostSideSteps; ++i) {
     const double u = (1.0 - t) * Net::kCornerU[side] + t * Net::kCornerU[(side + 1) % Net::kCorners];
     const double v = (1.0 - t) * Net::kCornerV[side] + t * Net::kCornerV[(side + 1) % Net::kCorners];
     const double along_u = Net::kCornerU[(side + 1) % Net::kCorners] - Net::kCornerU[side];

@@ -166,14 +166,13 @@ template <typename Net>
 SurfaceCells<Net>::SurfaceCells(const Topology& topology, const Scheme& scheme, ConstValuesRef control,
                                 const Progress& progress)
     : steps_(scheme) {
-  constexpr int kLevels = 2;  // as LimitSurface
   constexpr double kCut = 0.3;
   constexpr double kChosen = 0.5;
   report_progress(progress, 0.0);
   if (needs_first_step(topology, scheme)) first_ = std::make_unique<Refinement>(topology, scheme);
   const Scheme after = scheme.after_first_step();
-  pieces_ =
-      std::make_unique<Pieces>(first_ == nullptr ? topology : first_->child(), after, kLevels, Pieces::Rest::Rings);
+  pieces_ = std::make_unique<Pieces>(first_ == nullptr ? topology : first_->child(), after, kRingPieceLevels,
+                                     Pieces::Rest::Rings);
   shapes_ = std::make_unique<CellShapes<Net>>(*pieces_, steps_);
   report_progress(progress, kCut);
   find_values(first_ == nullptr ? Values(control) : first_->apply(control));

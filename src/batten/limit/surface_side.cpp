@@ -11,16 +11,16 @@ namespace {
 
 constexpr double kOnSide = 1e-13;  ///< the third side of a triangle is met to rounding
 
-struct Corners {
+struct CornerPlaces {
   std::array<double, 4> u;
   std::array<double, 4> v;
   Index count;
 };
-constexpr Corners kQuad{{0.0, 1.0, 1.0, 0.0}, {0.0, 0.0, 1.0, 1.0}, 4};
-constexpr Corners kTriangle{{0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.0, 0.0}, 3};
+constexpr CornerPlaces kQuad{{0.0, 1.0, 1.0, 0.0}, {0.0, 0.0, 1.0, 1.0}, 4};
+constexpr CornerPlaces kTriangle{{0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.0, 0.0}, 3};
 
 /// The fraction of side `corner` at which the place lies, or -1 where it is not on it.
-double fraction_on_side(const Corners& corners, Index corner, const SurfacePlace& place) {
+double fraction_on_side(const CornerPlaces& corners, Index corner, const SurfacePlace& place) {
   const Index next = (corner + 1) % corners.count;
   const double u = place.u - corners.u[corner];
   const double v = place.v - corners.v[corner];
@@ -34,7 +34,7 @@ double fraction_on_side(const Corners& corners, Index corner, const SurfacePlace
 
 SurfaceSide side_of(const LimitSurface& surface, const Eigen::Vector3d& query, const NearestPoint& nearest) {
   const Topology& base = surface.base();
-  const Corners& corners = base.uniform_face_size() == 3 ? kTriangle : kQuad;
+  const CornerPlaces& corners = base.uniform_face_size() == 3 ? kTriangle : kQuad;
   const Eigen::Vector3d away = query - nearest.point;
   double best = 0.0;
   const auto look = [&](const SurfacePlace& place) {

@@ -22,9 +22,6 @@ namespace batten {
 
 namespace {
 
-/// A double has no smaller fractions of a face: here is the vertex itself.
-constexpr int kMostHalvings = 53;
-
 using Row = std::vector<std::pair<Index, double>>;
 
 /// Ascending, each vertex once, without zeros.
@@ -155,7 +152,7 @@ void SurfaceWeights::Parts::add_ring_row(const SurfacePlace& place, JetPart part
   double scale = 1.0;
   std::vector<std::pair<Index, int>> path;
   for (Index kind = kinds[place.face]; kind != RingSteps::kPatch;) {
-    if (path.size() == kMostHalvings) return add_vertex_row(place, part, row);
+    if (path.size() == kHalvingsToVertex) return add_vertex_row(place, part, row);
     const Halving step = halve(quads, u, v);
     scale *= step.factor;
     path.emplace_back(kind, step.child);

@@ -4,6 +4,9 @@
 
 namespace batten {
 
+/// A double has no smaller fractions of a face: after so many halvings here is the vertex itself.
+inline constexpr int kHalvingsToVertex = 53;
+
 /// One of four children, in RingSteps' order, and how much faster its parameters run: a triangle's middle child is
 /// turned, backwards.
 struct Halving {

@@ -7,7 +7,7 @@ namespace batten {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 RingMask zero_ring(int edges) {
   RingMask mask;
@@ -48,7 +48,7 @@ RingMask extraordinary_mask(int valence) {
     default:
       break;
   }
-  const double theta = 2.0 * kPi / valence;
+  const double theta = 2.0 * pi / valence;
   for (int j = 0; j < valence; ++j) {
     mask.edges[j] = (0.25 + std::cos(j * theta) + 0.5 * std::cos(2 * j * theta)) / valence;
   }
@@ -63,7 +63,7 @@ RingMask crease_vertex_mask(int triangles, int edge) {
     mask.edges[1] = 0.5;
     return mask;
   }
-  const double theta = kPi / k;
+  const double theta = pi / k;
   const double sine = std::sin(edge * theta);
   const double sine2 = std::sin(2 * edge * theta);
   // sin/(1 - cos) and cos - cos 2 without cancellation, for many triangles.
@@ -80,7 +80,7 @@ RingMask crease_vertex_mask(int triangles, int edge) {
 
 TangentMasks extraordinary_tangents(int valence) {
   TangentMasks masks{zero_ring(valence), zero_ring(valence)};
-  const double theta = 2.0 * kPi / valence;
+  const double theta = 2.0 * pi / valence;
   for (int j = 0; j < valence; ++j) {
     masks.first.edges[j] = std::cos(j * theta);
     masks.second.edges[j] = std::sin(j * theta);
@@ -90,7 +90,7 @@ TangentMasks extraordinary_tangents(int valence) {
 
 RingMask crease_vertex_cross_tangent(int triangles) {
   RingMask mask = zero_ring(triangles + 1);
-  const double theta = kPi / triangles;
+  const double theta = pi / triangles;
   for (int i = 1; i < triangles; ++i) mask.edges[i] = std::sin(i * theta);
   mask.vertex = -1.0 / std::tan(0.5 * theta);
   return mask;

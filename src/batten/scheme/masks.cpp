@@ -7,12 +7,12 @@ namespace batten {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 /// Stam and Loop's weight for edge points beside triangles, as OpenSubdiv has it.
 constexpr double kSmoothTriangleWeight = 0.470;
 
 double loop_beta(int valence) {
-  const double root = 0.375 + 0.25 * std::cos(2.0 * kPi / valence);
+  const double root = 0.375 + 0.25 * std::cos(2.0 * pi / valence);
   return (0.625 - root * root) / valence;
 }
 
@@ -28,7 +28,7 @@ RingMask zero_ring(int edges, int faces) {
 
 RingMask opensubdiv_cross(SchemeKind kind, int k) {
   RingMask mask = zero_ring(k + 1, k);
-  const double theta = kPi / k;
+  const double theta = pi / k;
   if (k == 1) {
     mask.vertex = -6.0;
     mask.edges = {3.0, 3.0};
@@ -56,7 +56,7 @@ RingMask opensubdiv_cross(SchemeKind kind, int k) {
 /// The left eigenvector of the refined rules' ring matrix (MATH 4.3); k >= 2.
 RingMask exact_cross(SchemeKind kind, int k) {
   RingMask mask = zero_ring(k + 1, k);
-  const double theta = kPi / k;
+  const double theta = pi / k;
   const double cotangent = 1.0 / std::tan(0.5 * theta);
   double lambda = 0.0;
   double first = 0.0;  // right-hand sides of the two equations for x = e_0 = e_k and y = v
@@ -111,7 +111,7 @@ EdgeMask edge_mask(const Scheme& scheme, int triangles) {
 }
 
 TangentMasks smooth_tangents(SchemeKind kind, int valence) {
-  const double theta = 2.0 * kPi / valence;
+  const double theta = 2.0 * pi / valence;
   const bool quads = kind == SchemeKind::CatmullClark;
   const double a = quads ? catmull_clark_a(theta) : 1.0;
   TangentMasks masks{zero_ring(valence, valence), zero_ring(valence, valence)};
@@ -136,7 +136,7 @@ TangentMasks crease_tangents(SchemeKind kind, int faces, CreaseTangents choice) 
 }
 
 double subdominant_eigenvalue(SchemeKind kind, int valence) {
-  const double theta = 2.0 * kPi / valence;
+  const double theta = 2.0 * pi / valence;
   return kind == SchemeKind::Loop ? 0.375 + 0.25 * std::cos(theta) : (4.0 + catmull_clark_a(theta)) / 16.0;
 }
 

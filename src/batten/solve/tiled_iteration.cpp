@@ -88,37 +88,33 @@ int steps_needed(double wanted, double last_contraction) {
 }
 
 /// Up to four columns of the problem in the order of the tiles.
-struct Columns {
+struct IterationColumns {
   Buffer<Double4> b;
   Buffer<Double4> x;
   Buffer<Float4> residual;     ///< (b - A x) / diagonal
   Buffer<Float4> change;       ///< x less its value one step before
   Buffer<Float4> next_change;  ///< the same, as the running round writes it
 
-  explicit Columns(std::size_t size) : b(size), x(size), residual(size), change(size), next_change(size) {}
+  explicit IterationColumns(std::size_t size) : b(size), x(size), residual(size), change(size), next_change(size) {}
 };
 
 /// What a thread needs for one tile.
-struct Scratch {
+struct IterationScratch {
   Buffer<Float4> residual;
   Buffer<Float4> now;
   Buffer<Float4> previous;
   Buffer<Double4> x;
   Buffer<Double4> product;
-};
 
-Scratch& scratch_for(const Tile& tile) {
-  thread_local Scratch scratch;
-  const auto size = static_cast<std::size_t>(tile.ring_end.back());
-  if (scratch.residual.size() < size) {
-    scratch.residual.resize(size);
-    scratch.now.resize(size);
-    scratch.previous.resize(size);
-    scratch.x.resize(size);
-    scratch.product.resize(size);
+  std::size_t size() const { return residual.size(); }
+  void resize(std::size_t count) {
+    residual.resize(count);
+    now.resize(count);
+    previous.resize(count);
+    x.resize(count);
+    product.resize(count);
   }
-  return scratch;
-}
+};
 
 void load_row(const double* row, std::ptrdiff_t count, Double4& value) {
   value = Double4{row[0], 0.0, 0.0, 0.0};
@@ -127,7 +123,7 @@ void load_row(const double* row, std::ptrdiff_t count, Double4& value) {
 
 /// The columns [first, first + count) of the free rows; held values move to the right-hand side.
 void gather(const Tiling& tiling, ConstValuesRef b, const ValuesRef& x, std::ptrdiff_t first, std::ptrdiff_t count,
-            Columns& columns) {
+            IterationColumns& columns) {
   const double* from_b = b.data() + first;
   const double* from_x = x.data() + first;
   parallel_for(static_cast<std::ptrdiff_t>(tiling.order.size()), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
@@ -142,7 +138,8 @@ void gather(const Tiling& tiling, ConstValuesRef b, const ValuesRef& x, std::ptr
   }
 }
 
-void scatter(const Tiling& tiling, const Columns& columns, std::ptrdiff_t first, std::ptrdiff_t count, ValuesRef& x) {
+void scatter(const Tiling& tiling, const IterationColumns& columns, std::ptrdiff_t first, std::ptrdiff_t count,
+             ValuesRef& x) {
   parallel_for(static_cast<std::ptrdiff_t>(tiling.order.size()), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (std::ptrdiff_t i = begin; i < end; ++i) {
       for (std::ptrdiff_t c = 0; c < count; ++c) x(tiling.order[i], first + c) = columns.x[i][c];
@@ -151,8 +148,8 @@ void scatter(const Tiling& tiling, const Columns& columns, std::ptrdiff_t first,
 }
 
 /// A x of the tile's own rows, in double.
-const Double4* product_of(const Tiling& tiling, const Tile& tile, const Columns& columns) {
-  Scratch& scratch = scratch_for(tile);
+const Double4* product_of(const Tiling& tiling, const Tile& tile, const IterationColumns& columns) {
+  IterationScratch& scratch = scratch_for<IterationScratch>(tile);
   const Index own = tile.own_count;
   std::copy_n(columns.x.begin() + tile.first, own, scratch.x.begin());
   for (Index i = own; i < tile.ring_end[1]; ++i) scratch.x[i] = columns.x[tile.ghosts[i - own]];
@@ -161,7 +158,7 @@ const Double4* product_of(const Tiling& tiling, const Tile& tile, const Columns&
 }
 
 /// Writes the residual of the tile's own rows, and returns the largest squared |b - A x| of a row.
-double measure(const Tiling& tiling, const Tile& tile, Columns& columns) {
+double measure(const Tiling& tiling, const Tile& tile, IterationColumns& columns) {
   const Double4* product = product_of(tiling, tile, columns);
   double most = 0.0;
   for (Index s = 0; s < tile.segment_end[0]; ++s) {
@@ -179,8 +176,8 @@ double measure(const Tiling& tiling, const Tile& tile, Columns& columns) {
 
 /// Runs a round's steps in the tile and adds the correction to its own unknowns. The change of the last round is only
 /// read here, since neighbours read it too; the new one goes to next_change.
-void correct(const Tiling& tiling, const Tile& tile, const Schedule& schedule, int steps, Columns& columns) {
-  Scratch& scratch = scratch_for(tile);
+void correct(const Tiling& tiling, const Tile& tile, const Schedule& schedule, int steps, IterationColumns& columns) {
+  IterationScratch& scratch = scratch_for<IterationScratch>(tile);
   const Index own = tile.own_count;
   const Index all = tile.ring_end[steps - 1];
   Float4* now = scratch.now.data();
@@ -218,7 +215,7 @@ class Rounds {
   Rounds(const Tiling& tiling, const IterationOptions& options, const StopRule& stop)
       : tiling_(tiling), options_(options), stop_(stop), chebyshev_(options.lower_bound, tiling.upper_bound) {}
 
-  void run(Columns& columns, double tolerance) {
+  void run(IterationColumns& columns, double tolerance) {
     const auto tile_count = static_cast<std::ptrdiff_t>(tiling_.tiles.size());
     while (true) {
       history.push_back(std::sqrt(parallel_reduce(
@@ -280,26 +277,26 @@ class Rounds {
 struct TiledIteration::Tiles : Tiling {
   explicit Tiles(Tiling tiling) : Tiling(std::move(tiling)) {}
 
-  std::unique_ptr<Columns> take_columns() {
+  std::unique_ptr<IterationColumns> take_columns() {
     const std::lock_guard<std::mutex> lock(mutex);
-    if (spare.empty()) return std::make_unique<Columns>(order.size());
-    std::unique_ptr<Columns> columns = std::move(spare.back());
+    if (spare.empty()) return std::make_unique<IterationColumns>(order.size());
+    std::unique_ptr<IterationColumns> columns = std::move(spare.back());
     spare.pop_back();
     return columns;
   }
-  void give_back(std::unique_ptr<Columns> columns) {
+  void give_back(std::unique_ptr<IterationColumns> columns) {
     const std::lock_guard<std::mutex> lock(mutex);
     if (spare.empty()) spare.push_back(std::move(columns));
   }
 
   std::mutex mutex;
-  std::vector<std::unique_ptr<Columns>> spare;
+  std::vector<std::unique_ptr<IterationColumns>> spare;
 };
 
 namespace {
 
 /// The rows' errors |b - A x|, measured once more, in double.
-ErrorSummary summarise(const Tiling& tiling, const Columns& columns) {
+ErrorSummary summarise(const Tiling& tiling, const IterationColumns& columns) {
   return parallel_reduce(
       static_cast<std::ptrdiff_t>(tiling.tiles.size()), ErrorSummary(),
       [&](std::ptrdiff_t t, std::ptrdiff_t /*end*/) {
@@ -343,7 +340,7 @@ SolveReport TiledIteration::solve(ConstValuesRef b, ValuesRef x, const Iteration
   report.converged = true;
   // Each group of four columns keeps to its share of a row's allowed length.
   const std::ptrdiff_t groups = (x.cols() + 3) / 4;
-  std::unique_ptr<Columns> columns = tiles_->take_columns();
+  std::unique_ptr<IterationColumns> columns = tiles_->take_columns();
   for (std::ptrdiff_t g = 0; g < groups; ++g) {
     const std::ptrdiff_t count = std::min<std::ptrdiff_t>(4, x.cols() - 4 * g);
     gather(*tiles_, b, x, 4 * g, count, *columns);

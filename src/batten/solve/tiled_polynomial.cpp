@@ -47,28 +47,24 @@ std::vector<Round> plan(const std::vector<double>& coefficients, int passes) {
 }
 
 /// Four columns in the order of the tiles: at the ends of a pass the sum is x and y is not read.
-struct Columns {
+struct PolynomialColumns {
   Buffer<Double4> sum;
   Buffer<Double4> y;
 };
 
 /// What a thread needs for one tile.
-struct Scratch {
+struct PolynomialScratch {
   Buffer<Double4> sum;
   Buffer<Double4> y;
   Buffer<Double4> next;
-};
 
-Scratch& scratch_for(const Tile& tile) {
-  thread_local Scratch scratch;
-  const auto size = static_cast<std::size_t>(tile.ring_end.back());
-  if (scratch.sum.size() < size) {
-    scratch.sum.resize(size);
-    scratch.y.resize(size);
-    scratch.next.resize(size);
+  std::size_t size() const { return sum.size(); }
+  void resize(std::size_t count) {
+    sum.resize(count);
+    y.resize(count);
+    next.resize(count);
   }
-  return scratch;
-}
+};
 
 /// The caller's columns [first, first + count).
 struct Window {
@@ -96,11 +92,12 @@ struct Window {
 struct Places {
   const Window* from;  ///< null: `before`
   const Window* to;    ///< null: `after`
-  const Columns* before;
-  Columns* after;
+  const PolynomialColumns* before;
+  PolynomialColumns* after;
 };
 
-void load(const Tiling& tiling, const Tile& tile, int rings, bool with_y, const Places& places, Scratch& scratch) {
+void load(const Tiling& tiling, const Tile& tile, int rings, bool with_y, const Places& places,
+          PolynomialScratch& scratch) {
   const Index own = tile.own_count;
   const Index all = tile.ring_end[rings];
   if (places.from != nullptr) {
@@ -108,7 +105,7 @@ void load(const Tiling& tiling, const Tile& tile, int rings, bool with_y, const 
     for (Index i = own; i < all; ++i) scratch.sum[i] = places.from->load(tiling.order[tile.ghosts[i - own]]);
     return;
   }
-  const Columns& before = *places.before;
+  const PolynomialColumns& before = *places.before;
   std::copy_n(before.sum.begin() + tile.first, own, scratch.sum.begin());
   for (Index i = own; i < all; ++i) scratch.sum[i] = before.sum[tile.ghosts[i - own]];
   if (!with_y) return;
@@ -117,7 +114,7 @@ void load(const Tiling& tiling, const Tile& tile, int rings, bool with_y, const 
 }
 
 void run_round(const Tiling& tiling, const Tile& tile, const Round& round, const Places& places) {
-  Scratch& scratch = scratch_for(tile);
+  PolynomialScratch& scratch = scratch_for<PolynomialScratch>(tile);
   const auto steps = static_cast<int>(round.size());
   load(tiling, tile, steps, !round.front().first, places, scratch);
   for (int k = 0; k < steps; ++k) {
@@ -143,19 +140,19 @@ void run_round(const Tiling& tiling, const Tile& tile, const Round& round, const
 struct TiledPolynomial::Parts {
   Tiling tiling;
   mutable std::mutex mutex;
-  mutable std::array<Columns, 2> spare;
+  mutable std::array<PolynomialColumns, 2> spare;
 
-  std::array<Columns, 2> take() const {
+  std::array<PolynomialColumns, 2> take() const {
     const std::lock_guard<std::mutex> lock(mutex);
     return std::exchange(spare, {});
   }
-  void give_back(std::array<Columns, 2> columns) const {
+  void give_back(std::array<PolynomialColumns, 2> columns) const {
     const std::lock_guard<std::mutex> lock(mutex);
     spare = std::move(columns);
   }
 
   void run(const std::vector<Round>& rounds, const Window& window, const Progress& progress) const {
-    std::array<Columns, 2> columns = take();
+    std::array<PolynomialColumns, 2> columns = take();
     const std::size_t size = tiling.order.size();
     const bool with_y = !rounds.front().back().last;
     for (std::size_t r = 0; r < std::min<std::size_t>(rounds.size() - 1, 2); ++r) {

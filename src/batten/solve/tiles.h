@@ -34,6 +34,15 @@ struct Tile {
   Buffer<std::uint16_t> columns;
 };
 
+/// What a thread keeps for its work on tiles, big enough for this one.
+template <typename Scratch>
+Scratch& scratch_for(const Tile& tile) {
+  thread_local Scratch scratch;
+  const auto size = static_cast<std::size_t>(tile.ring_end.back());
+  if (scratch.size() < size) scratch.resize(size);
+  return scratch;
+}
+
 /// All free unknowns, numbered tile after tile.
 struct Tiling {
   std::vector<Tile> tiles;
