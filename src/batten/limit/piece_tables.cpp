@@ -40,9 +40,10 @@ Buffer<double> product(const Buffer<double>& u, const Buffer<double>& v) {
 }  // namespace
 
 template <typename Scalar>
-PieceTables<Scalar>::PieceTables(const Pieces& pieces, TileValue value) : value_(value) {
-  const bool quads = pieces.scheme().kind == SchemeKind::CatmullClark;
-  for (int level = 0; level <= pieces.levels(); ++level) {
+typename PieceTables<Scalar>::Patches PieceTables<Scalar>::patches_of(SchemeKind kind, int levels, TileValue value) {
+  const bool quads = kind == SchemeKind::CatmullClark;
+  std::vector<Patch> patches;
+  for (int level = 0; level <= levels; ++level) {
     const int size = 1 << level;
     Patch patch;
     if (quads) {
@@ -63,38 +64,55 @@ PieceTables<Scalar>::PieceTables(const Pieces& pieces, TileValue value) : value_
       patch.stride = padded(std::ptrdiff_t{size + 1} * (size + 2) / 2);
       patch.u = transposed<Scalar>(triangle_weights(size, value), kTrianglePatchSize, patch.stride);
     }
-    patches_.push_back(std::move(patch));
+    patches.push_back(std::move(patch));
   }
-  rings_.resize(pieces.configurations().size());
-  parallel_for_each(static_cast<std::ptrdiff_t>(rings_.size()), [&](std::ptrdiff_t i) {
-    // The points of the configuration's face 0, once, with the one-ring's unit vectors for values.
-    const Pieces::Configuration& shared = pieces.configurations()[i];
-    int levels = 0;
-    while ((Index{1} << levels) < shared.size) ++levels;
-    const Pieces own(shared.topology, pieces.scheme(), levels, 0);
-    const Index vertices = shared.topology.vertex_count();
-    const Values unit = Values::Identity(vertices, vertices);
-    const LevelValues values(own, unit);
-    const PieceTables<double> tables(own, value);
-    PieceGrid<double> grid(shared.size, vertices);
-    const PieceTables<double>* const kinds[] = {&tables};
-    GridFiller<double>(own, kinds, values).fill(0, std::span(&grid, 1));
-    Buffer<double> weights;
-    for (Index j = 0; j <= shared.size; ++j) {
-      for (Index x = 0; x <= shared.size - (quads ? 0 : j); ++x) {
-        for (Index k = 0; k < vertices; ++k) weights.push_back(grid.plane(k)[grid.place(x, j)]);
-      }
+  return std::make_shared<const std::vector<Patch>>(std::move(patches));
+}
+
+/// The points of the configuration's face 0, once, with the one-ring's unit vectors for values.
+template <typename Scalar>
+typename PieceTables<Scalar>::Ring PieceTables<Scalar>::ring_of(const Pieces::Configuration& shared,
+                                                                const Scheme& scheme,
+                                                                const PieceTables<double>& tables) {
+  int levels = 0;
+  while ((Index{1} << levels) < shared.size) ++levels;
+  const Pieces own(shared.topology, scheme, levels, 0);
+  const Index vertices = shared.topology.vertex_count();
+  const Values unit = Values::Identity(vertices, vertices);
+  const LevelValues values(own, unit);
+  PieceGrid<double> grid(shared.size, vertices);
+  const PieceTables<double>* const kinds[] = {&tables};
+  GridFiller<double>(own, kinds, values).fill(0, std::span(&grid, 1));
+  const bool quads = scheme.kind == SchemeKind::CatmullClark;
+  Buffer<double> weights;
+  for (Index j = 0; j <= shared.size; ++j) {
+    for (Index x = 0; x <= shared.size - (quads ? 0 : j); ++x) {
+      for (Index k = 0; k < vertices; ++k) weights.push_back(grid.plane(k)[grid.place(x, j)]);
     }
-    Ring& ring = rings_[i];
-    ring.vertices = vertices;
-    ring.stride = padded(static_cast<std::ptrdiff_t>(weights.size()) / vertices);
-    ring.weights = transposed<Scalar>(weights, vertices, ring.stride);
+  }
+  Ring ring;
+  ring.vertices = vertices;
+  ring.stride = padded(static_cast<std::ptrdiff_t>(weights.size()) / vertices);
+  ring.weights = transposed<Scalar>(weights, vertices, ring.stride);
+  return ring;
+}
+
+template <typename Scalar>
+PieceTables<Scalar>::PieceTables(const Pieces& pieces, TileValue value)
+    : value_(value),
+      patches_(patches_of(pieces.scheme().kind, pieces.levels(), value)),
+      rings_(pieces.configurations().size()) {
+  if (rings_.empty()) return;
+  const PieceTables<double> tables(value,
+                                   PieceTables<double>::patches_of(pieces.scheme().kind, pieces.levels(), value));
+  parallel_for_each(static_cast<std::ptrdiff_t>(rings_.size()), [&](std::ptrdiff_t i) {
+    rings_[i] = ring_of(pieces.configurations()[i], pieces.scheme(), tables);
   });
 }
 
 template <typename Scalar>
 const typename PieceTables<Scalar>::Patch& PieceTables<Scalar>::patch(Index size) const {
-  return patches_[static_cast<std::size_t>(__builtin_ctz(static_cast<unsigned>(size)))];
+  return (*patches_)[static_cast<std::size_t>(__builtin_ctz(static_cast<unsigned>(size)))];
 }
 
 template class PieceTables<float>;

@@ -1,5 +1,6 @@
 /// \file The weights of a piece's points: for regular patches of every size, and for every shared configuration.
 #pragma once
+#include <memory>
 #include <vector>
 
 #include "batten/limit/tile_weights.h"
@@ -38,8 +39,17 @@ class PieceTables {
   const Ring& ring(std::int32_t configuration) const { return rings_[configuration]; }
 
  private:
+  template <typename Other>
+  friend class PieceTables;
+  using Patches = std::shared_ptr<const std::vector<Patch>>;
+
+  /// Of pieces without configurations.
+  PieceTables(TileValue value, Patches patches) : value_(value), patches_(std::move(patches)) {}
+  static Patches patches_of(SchemeKind kind, int levels, TileValue value);
+  static Ring ring_of(const Pieces::Configuration& shared, const Scheme& scheme, const PieceTables<double>& tables);
+
   TileValue value_;
-  std::vector<Patch> patches_;
+  Patches patches_;  ///< of 2^0, 2^1, ... steps a side
   std::vector<Ring> rings_;
 };
 

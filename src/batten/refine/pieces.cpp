@@ -9,6 +9,7 @@
 
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
+#include "batten/refine/quad_ring.h"
 
 namespace batten {
 
@@ -49,6 +50,15 @@ Buffer<Index> with_surroundings(const Topology& topology, const Scheme& scheme, 
   if (scheme.crease_method == CreaseMethod::Chaikin && topology.has_creases()) all = with_one_ring(topology, all);
   for (Index& face : all) face = topology.face_begin(face);
   return all;
+}
+
+/// The places in `from` of the numbers of `to`.
+Buffer<std::uint8_t> places_of(const Buffer<Index>& to, std::span<const Index> from) {
+  Buffer<std::uint8_t> places;
+  for (const Index number : to) {
+    places.push_back(static_cast<std::uint8_t>(std::find(from.begin(), from.end(), number) - from.begin()));
+  }
+  return places;
 }
 
 }  // namespace
@@ -131,7 +141,7 @@ Buffer<std::uint8_t> Pieces::take(int level, const Buffer<Index>& faces, const s
   const std::size_t row_count = cells ? static_cast<std::size_t>(corners) : patch_size;
   const std::size_t first_row = rows_.size();
   rows_.resize(first_row + row_count * faces.size());
-  const PatchFinder finder(from, scheme_);
+  const auto finder = cells ? nullptr : std::make_unique<PatchFinder>(from, scheme_);
   Buffer<Piece> found(faces.size());
   Buffer<std::uint8_t> taken(faces.size());
   parallel_for(static_cast<std::ptrdiff_t>(faces.size()), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
@@ -149,7 +159,7 @@ Buffer<std::uint8_t> Pieces::take(int level, const Buffer<Index>& faces, const s
       if (cells) {
         piece.kind = Piece::Kind::Cell;
         for (Index c = 0; c < corners; ++c) rows[c] = from.origin(first + (corner + c) % corners);
-      } else if (finder.find(piece.half_edge, patch)) {
+      } else if (finder->find(piece.half_edge, patch)) {
         piece.kind = Piece::Kind::Patch;
         std::copy_n(patch.rows.begin(), row_count, rows);
       } else {
@@ -186,44 +196,65 @@ class Pieces::RingKeys {
   RingKeys(const Topology& from, const Scheme& scheme, const Buffer<Piece>& found, const Buffer<std::size_t>& which,
            std::size_t most)
       : entries_(which.size()), blocks_(static_cast<std::size_t>(block_count(count(), kBlock))) {
+    const SharpnessCodes codes(from);
     parallel_for(
         count(),
         [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+          QuadRing quads(from, scheme, codes);
           FaceRing ring;
           Block& block = blocks_[begin / kBlock];
           for (std::ptrdiff_t i = begin; i < end; ++i) {
-            entries_[i] = {block.keys.size(), block.rows.size(), 0, 0};
-            if (!ring.gather(from, scheme, found[which[i]].half_edge, most)) continue;
-            entries_[i].key_size = ring.key().size();
-            entries_[i].row_count = ring.vertices().size();
-            block.keys += ring.key();
-            block.rows.insert(block.rows.end(), ring.vertices().begin(), ring.vertices().end());
+            const Index half_edge = found[which[i]].half_edge;
+            if (quads.gather(half_edge)) {
+              const char* const code = reinterpret_cast<const char*>(quads.code().data());
+              add(i, true, {code, sizeof(QuadRing::Code)}, quads, block);
+            } else if (ring.gather(from, scheme, half_edge, most)) {
+              add(i, false, ring.key(), ring.vertices(), block);
+            }
           }
         },
         kBlock);
   }
 
   std::ptrdiff_t count() const { return static_cast<std::ptrdiff_t>(entries_.size()); }
-  /// Empty where the ring was too large.
+  /// Empty where the ring was too large. A FaceRing's has more bytes than a QuadRing's.
   std::string_view key(std::ptrdiff_t i) const {
-    return std::string_view(blocks_[i / kBlock].keys).substr(entries_[i].key_start, entries_[i].key_size);
+    return {blocks_[i / kBlock].keys.data() + entries_[i].key_start, entries_[i].key_size};
   }
+  std::size_t hash(std::ptrdiff_t i) const { return entries_[i].hash; }
+  /// In the order of QuadRing, or else of FaceRing.
   std::span<const Index> rows(std::ptrdiff_t i) const {
     return std::span<const Index>(blocks_[i / kBlock].rows).subspan(entries_[i].row_start, entries_[i].row_count);
   }
+  bool is_quad_ring(std::ptrdiff_t i) const { return entries_[i].quad; }
 
  private:
   static constexpr std::ptrdiff_t kBlock = 512;
   struct Block {
-    std::string keys;
+    Buffer<char> keys;
     Buffer<Index> rows;
   };
   struct Entry {
     std::size_t key_start = 0;
     std::size_t row_start = 0;
-    std::size_t key_size = 0;
-    std::size_t row_count = 0;
+    std::size_t hash = 0;
+    std::uint32_t key_size = 0;
+    std::uint32_t row_count = 0;
+    bool quad = false;
   };
+
+  template <typename Rows>
+  void add(std::ptrdiff_t i, bool quad, std::string_view key, const Rows& rows, Block& block) {
+    entries_[i] = {block.keys.size(),
+                   block.rows.size(),
+                   std::hash<std::string_view>()(key),
+                   static_cast<std::uint32_t>(key.size()),
+                   static_cast<std::uint32_t>(rows.end() - rows.begin()),
+                   quad};
+    block.keys.insert(block.keys.end(), key.begin(), key.end());
+    block.rows.insert(block.rows.end(), rows.begin(), rows.end());
+  }
+
   Buffer<Entry> entries_;
   std::vector<Block> blocks_;
 };
@@ -239,28 +270,39 @@ void Pieces::share_configurations(const Topology& from, std::size_t fewest, Buff
   struct Sharing {
     std::size_t count = 0;
     std::int32_t configuration = -1;
+    Buffer<std::uint8_t> order;  ///< of a QuadRing's vertices, as the configuration has them
   };
-  std::unordered_map<std::string_view, Sharing> sharings;
+  // Equal surroundings go by the number of the first ring that has them.
+  const auto hash = [&](std::ptrdiff_t i) { return rings.hash(i); };
+  const auto equal = [&](std::ptrdiff_t a, std::ptrdiff_t b) { return rings.key(a) == rings.key(b); };
+  std::unordered_map<std::ptrdiff_t, Sharing, decltype(hash), decltype(equal)> sharings(256, hash, equal);
   std::vector<Sharing*> sharing_of(irregular.size());
   for (std::ptrdiff_t i = 0; i < rings.count(); ++i) {
     if (rings.key(i).empty()) continue;
-    sharing_of[i] = &sharings[rings.key(i)];
+    sharing_of[i] = &sharings[i];
     ++sharing_of[i]->count;
   }
   for (std::ptrdiff_t i = 0; i < rings.count(); ++i) {
     Sharing* sharing = sharing_of[i];
     if (sharing == nullptr || sharing->count < fewest) continue;
     Piece& piece = found[irregular[i]];
+    const std::span<const Index> rows = rings.rows(i);
     if (sharing->configuration < 0) {
       sharing->configuration = static_cast<std::int32_t>(configurations_.size());
       FaceRing ring;
       ring.gather(from, scheme_, piece.half_edge);
+      if (rings.is_quad_ring(i)) sharing->order = places_of(ring.vertices(), rows);
       configurations_.push_back({cut_out(from, ring.half_edges()).topology, piece.size});
     }
     piece.configuration = sharing->configuration;
     piece.first_row = rows_.size();
-    const std::span<const Index> rows = rings.rows(i);
-    rows_.insert(rows_.end(), rows.begin(), rows.end());
+    rows_.resize(piece.first_row + rows.size());
+    Index* const to = rows_.data() + piece.first_row;
+    if (rings.is_quad_ring(i)) {
+      for (std::size_t k = 0; k < rows.size(); ++k) to[k] = rows[sharing->order[k]];
+    } else {
+      std::copy(rows.begin(), rows.end(), to);
+    }
     taken[irregular[i]] = 1;
   }
 }

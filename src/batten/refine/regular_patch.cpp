@@ -48,12 +48,18 @@ PatchFinder::Kind PatchFinder::classify(Index vertex) const {
   int faces = 0;
   int sharp_edges = topology_.is_boundary_vertex(vertex) ? 1 : 0;  // the last edge, which no half-edge leaves along
   bool plain = true;
-  topology_.for_each_outgoing(vertex, [&](Index h) {
+  const Index start = topology_.vertex_half_edge(vertex);
+  Index h = start;
+  do {
     ++faces;
-    const float sharpness = topology_.edge_sharpness(topology_.edge(h));
+    // Fewer looks at the tables than edge_sharpness() takes, which has to find out whether there is a twin.
+    const float sharpness = topology_.twin(h) < 0     ? kInfiniteSharpness
+                            : topology_.has_creases() ? topology_.tables().edge_sharpness[topology_.edge(h)]
+                                                      : 0.0F;
     plain = plain && is_plain(sharpness);
     sharp_edges += is_infinite(sharpness) ? 1 : 0;
-  });
+    h = topology_.twin(previous(h));
+  } while (h >= 0 && h != start);
   if (!plain) return Kind::Irregular;
   if (is_infinite(tag) || sharp_edges > 2) return Kind::Corner;
   if (sharp_edges == 2) return Kind::Curve;
