@@ -4,11 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "batten/limit/grid_faces.h"
 #include "batten/limit/lattice_walk.h"
-#include "batten/limit/limit_matrix.h"
 #include "batten/parallel/parallel.h"
-#include "batten/scheme/sharpness.h"
 
 namespace batten {
 
@@ -166,11 +163,15 @@ class Step {
 
   /// By the rules as they are, wherever a half-edge of the lattice lies.
   void store_by_rules(const HalfEdge& h, Index vertex) const {
-    for (std::ptrdiff_t c = 0; c < k_; ++c) {
-      double sum = 0.0;
-      rules_.visit(
-          h, [&](const LatticeWalk::Vertex& source, double weight) { sum += weight * (in_ + source.number * k_)[c]; });
-      out_[vertex * k_ + c] = static_cast<Scalar>(sum);
+    constexpr std::ptrdiff_t kColumns = 3;
+    for (std::ptrdiff_t c = 0; c < k_; c += kColumns) {
+      const std::ptrdiff_t width = std::min(kColumns, k_ - c);
+      double sum[kColumns] = {};
+      rules_.visit(h, [&](const LatticeWalk::Vertex& source, double weight) {
+        const double* from = in_ + source.number * k_ + c;
+        for (std::ptrdiff_t i = 0; i < width; ++i) sum[i] += weight * from[i];
+      });
+      for (std::ptrdiff_t i = 0; i < width; ++i) out_[vertex * k_ + c + i] = static_cast<Scalar>(sum[i]);
     }
   }
   void store_by_rules(const HalfEdge& upright) const {
@@ -393,34 +394,7 @@ class Step {
   ButterflyRules<LatticeWalk> rules_;
 };
 
-/// A level whose tags are infinite is like the next.
-bool fades(const Topology& base) {
-  const auto is_fading = [](float sharpness) { return is_semi_sharp(sharpness); };
-  const TopologyTables& tables = base.tables();
-  return std::any_of(tables.edge_sharpness.begin(), tables.edge_sharpness.end(), is_fading) ||
-         std::any_of(tables.vertex_sharpness.begin(), tables.vertex_sharpness.end(), is_fading);
-}
-
 }  // namespace
-
-LatticeTags lattice_tags(const Topology& base, const Scheme& scheme, int levels) {
-  LatticeTags tags;
-  if (!fades(base) || levels == 0) {
-    tags.kinds = butterfly_vertices(base, scheme);
-  } else {
-    TopologyTables tables = base.tables();
-    for (int level = 0; level < levels; ++level) {
-      for (float& sharpness : tables.edge_sharpness) sharpness = subdivided_sharpness(sharpness);
-      for (float& sharpness : tables.vertex_sharpness) sharpness = subdivided_sharpness(sharpness);
-    }
-    const Topology later = Topology::from_tables(std::move(tables));
-    tags = lattice_tags(later, scheme, 0);
-    return tags;
-  }
-  tags.sharp_edges.resize(static_cast<std::size_t>(base.edge_count()));
-  for (Index e = 0; e < base.edge_count(); ++e) tags.sharp_edges[e] = is_sharp(base.edge_sharpness(e)) ? 1 : 0;
-  return tags;
-}
 
 template <typename Scalar>
 void fill_butterfly_grids(const Topology& base, const Scheme& scheme, ConstValuesRef control, int levels, Scalar* out,
@@ -440,7 +414,7 @@ void fill_butterfly_grids(const Topology& base, const Scheme& scheme, ConstValue
   refine_butterfly_values(base, scheme, control, values.data(), part(1));
   const ButterflyMasks masks(scheme);
   LatticeTags tags = lattice_tags(base, scheme, 1);
-  const bool changing = fades(base);
+  const bool changing = tags_fade(base);
   for (int level = 1; level < levels; ++level) {
     if (changing && level > 1) tags = lattice_tags(base, scheme, level);
     if (level + 1 == levels) {
@@ -450,39 +424,6 @@ void fill_butterfly_grids(const Topology& base, const Scheme& scheme, ConstValue
     Step<double>(base, masks, tags, level, k, values.data(), next.data()).fill(part(level + 1));
     values = std::move(next);
   }
-}
-
-Values butterfly_grid_normals(const Topology& base, const Scheme& scheme, ConstValuesRef points, int levels) {
-  const TessellationLayout layout(base, false, levels);
-  const GridNumbering numbering{base, layout};
-  const auto face_count = layout.faces_per_face * base.face_count();
-  Mesh mesh;
-  mesh.points = points;
-  mesh.face_offsets.resize(static_cast<std::size_t>(face_count) + 1);
-  for (std::size_t f = 0; f < mesh.face_offsets.size(); ++f) mesh.face_offsets[f] = static_cast<Index>(3 * f);
-  mesh.face_vertices.resize(static_cast<std::size_t>(3 * face_count));
-  parallel_for(base.face_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    GridFaces grids(layout, numbering);
-    for (auto f = static_cast<Index>(begin); f < end; ++f) {
-      grids.write(f, mesh.face_vertices.data() + 3 * layout.faces_per_face * f);
-    }
-  });
-  // What is sharp after so many levels, segment by segment.
-  const LatticeTags tags = lattice_tags(base, scheme, levels);
-  for (Index e = 0; e < base.edge_count(); ++e) {
-    if (tags.sharp_edges[e] == 0) continue;
-    const LatticeWalk walk(base, layout, tags);
-    for (Index s = 0; s < layout.steps; ++s) {
-      const auto h = walk.on_base(base.edge_half_edge(e), s);
-      const auto to = walk.origin(walk.next(h));
-      mesh.creases.push_back(
-          {static_cast<Index>(walk.origin(h).number), static_cast<Index>(to.number), kInfiniteSharpness});
-    }
-  }
-  for (Index v = 0; v < base.vertex_count(); ++v) {
-    if (tags.kinds[v] == ButterflyVertex::Corner) mesh.corners.push_back({v, kInfiniteSharpness});
-  }
-  return limit_normals(Topology(mesh), scheme, points).vertices;
 }
 
 template void fill_butterfly_grids(const Topology&, const Scheme&, ConstValuesRef, int, float*, const Progress&);

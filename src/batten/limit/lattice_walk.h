@@ -15,6 +15,9 @@ struct LatticeTags {
 /// Semi-sharp tags `levels` levels on. O(H).
 LatticeTags lattice_tags(const Topology& base, const Scheme& scheme, int levels);
 
+/// Whether any tag is semi-sharp: if not, the tags of all levels are the same. O(V + E).
+bool tags_fade(const Topology& base);
+
 /// An upright triangle (i, j) has the corners (i, j), (i+1, j), (i, j+1), a turned one (i+1, j+1), (i, j+1), (i+1, j);
 /// side s of a triangle runs from its corner s on.
 class LatticeWalk {

@@ -141,13 +141,13 @@ void Tessellator::Parts::check_output(ConstValuesRef control_values, std::span<S
 template <typename Scalar>
 void Tessellator::Parts::fill_interpolating(ConstValuesRef control_values, std::span<Scalar> out,
                                             std::span<Scalar> normals) const {
-  fill_butterfly_grids(base(), scheme, control_values, layout.levels, out.data());
-  if (normals.empty()) return;
+  if (normals.empty()) return fill_butterfly_grids(base(), scheme, control_values, layout.levels, out.data());
   Values points(layout.vertices, 3);
   fill_butterfly_grids(base(), scheme, control_values, layout.levels, points.data());
+  const auto rounded = [](double number) { return static_cast<Scalar>(number); };
+  std::transform(points.data(), points.data() + points.size(), out.begin(), rounded);
   const Values exact = butterfly_grid_normals(base(), scheme, points, layout.levels);
-  std::transform(exact.data(), exact.data() + exact.size(), normals.begin(),
-                 [](double number) { return static_cast<Scalar>(number); });
+  std::transform(exact.data(), exact.data() + exact.size(), normals.begin(), rounded);
 }
 
 template <typename Scalar>

@@ -9,9 +9,6 @@ namespace batten {
 
 namespace {
 
-constexpr int kTabulatedValences = 64;
-constexpr int kTabulatedTriangles = 16;
-
 ButterflyVertex kind_of(const Topology& topology, const Scheme& scheme, Index vertex) {
   if (topology.is_isolated(vertex) || is_sharp(vertex_sharpness(topology, scheme, vertex))) {
     return ButterflyVertex::Corner;
@@ -26,6 +23,15 @@ ButterflyVertex kind_of(const Topology& topology, const Scheme& scheme, Index ve
   if (sharp == 2) return ButterflyVertex::Curve;
   if (sharp == 1) return ButterflyVertex::Dart;
   return edges == 6 ? ButterflyVertex::Regular : ButterflyVertex::Extraordinary;
+}
+
+void collect(const ButterflyRules<TopologyWalk>& rules, Index half_edge, ButterflyPoint& point) {
+  point.vertices.clear();
+  point.weights.clear();
+  rules.visit(half_edge, [&](Index vertex, double weight) {
+    point.vertices.push_back(vertex);
+    point.weights.push_back(weight);
+  });
 }
 
 /// The rows of a stencil summed up, a few columns at a time.
@@ -55,38 +61,11 @@ Buffer<ButterflyVertex> butterfly_vertices(const Topology& topology, const Schem
   return kinds;
 }
 
-ButterflyMasks::ButterflyMasks(const Scheme& scheme)
-    : modified_(scheme.kind == SchemeKind::ModifiedButterfly),
-      boundary_(scheme.butterfly_boundary),
-      stencil_(butterfly_mask(scheme)),
-      curve_end_(curve_end_mask(scheme.butterfly_boundary)),
-      extraordinary_(2),
-      crease_(2) {
-  for (int n = 2; n < kTabulatedValences; ++n) extraordinary_.push_back(extraordinary_mask(n));
-  for (int k = 2; k < kTabulatedTriangles; ++k) {
-    crease_.emplace_back(1);
-    for (int i = 1; i < k; ++i) crease_.back().push_back(crease_vertex_mask(k, i));
-  }
-}
-
-const RingMask& ButterflyMasks::extraordinary(int valence, RingMask& scratch) const {
-  if (valence < kTabulatedValences) return extraordinary_[valence];
-  return scratch = extraordinary_mask(valence);
-}
-
-const RingMask& ButterflyMasks::crease_vertex(int triangles, int edge, RingMask& scratch) const {
-  if (triangles < kTabulatedTriangles) return crease_[triangles][edge];
-  return scratch = crease_vertex_mask(triangles, edge);
-}
-
 ButterflyPoint butterfly_point(const Topology& topology, const Buffer<ButterflyVertex>& kinds,
                                const ButterflyMasks& masks, Index edge) {
   const TopologyWalk walk(topology, kinds);
   ButterflyPoint point;
-  ButterflyRules(walk, masks).visit(topology.edge_half_edge(edge), [&](Index vertex, double weight) {
-    point.vertices.push_back(vertex);
-    point.weights.push_back(weight);
-  });
+  collect(ButterflyRules(walk, masks), topology.edge_half_edge(edge), point);
   return point;
 }
 
@@ -109,12 +88,7 @@ void refine_butterfly_values(const Topology& topology, const Scheme& scheme, Con
       [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
         ButterflyPoint point;
         for (auto e = static_cast<Index>(begin); e < end; ++e) {
-          point.vertices.clear();
-          point.weights.clear();
-          rules.visit(topology.edge_half_edge(e), [&](Index vertex, double weight) {
-            point.vertices.push_back(vertex);
-            point.weights.push_back(weight);
-          });
+          collect(rules, topology.edge_half_edge(e), point);
           sum_rows(point, values, out + (kept + e) * k);
         }
       },

@@ -24,28 +24,6 @@ enum class ButterflyVertex : std::uint8_t {
 /// One a vertex; those without faces are corners. O(H).
 Buffer<ButterflyVertex> butterfly_vertices(const Topology& topology, const Scheme& scheme);
 
-/// The masks of a scheme, those of the usual valences made once.
-class ButterflyMasks {
- public:
-  explicit ButterflyMasks(const Scheme& scheme);
-
-  bool is_modified() const { return modified_; }
-  ButterflyBoundary boundary() const { return boundary_; }
-  const ButterflyMask& stencil() const { return stencil_; }
-  const CurveEndMask& curve_end() const { return curve_end_; }
-  /// `scratch` holds what is not tabulated.
-  const RingMask& extraordinary(int valence, RingMask& scratch) const;
-  const RingMask& crease_vertex(int triangles, int edge, RingMask& scratch) const;
-
- private:
-  bool modified_;
-  ButterflyBoundary boundary_;
-  ButterflyMask stencil_;
-  CurveEndMask curve_end_;
-  std::vector<RingMask> extraordinary_;
-  std::vector<std::vector<RingMask>> crease_;
-};
-
 /// A Topology and its vertices' kinds, for the rules.
 class TopologyWalk {
  public:

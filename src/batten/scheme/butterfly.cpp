@@ -9,6 +9,9 @@ namespace {
 
 using std::numbers::pi;
 
+constexpr int kTabulatedValences = 64;
+constexpr int kTabulatedTriangles = 16;
+
 RingMask zero_ring(int edges) {
   RingMask mask;
   mask.edges.resize(static_cast<std::size_t>(edges), 0.0);
@@ -94,6 +97,30 @@ RingMask crease_vertex_cross_tangent(int triangles) {
   for (int i = 1; i < triangles; ++i) mask.edges[i] = std::sin(i * theta);
   mask.vertex = -1.0 / std::tan(0.5 * theta);
   return mask;
+}
+
+ButterflyMasks::ButterflyMasks(const Scheme& scheme)
+    : modified_(scheme.kind == SchemeKind::ModifiedButterfly),
+      boundary_(scheme.butterfly_boundary),
+      stencil_(butterfly_mask(scheme)),
+      curve_end_(curve_end_mask(scheme.butterfly_boundary)),
+      extraordinary_(2),
+      crease_(2) {
+  for (int n = 2; n < kTabulatedValences; ++n) extraordinary_.push_back(extraordinary_mask(n));
+  for (int k = 2; k < kTabulatedTriangles; ++k) {
+    crease_.emplace_back(1);
+    for (int i = 1; i < k; ++i) crease_.back().push_back(crease_vertex_mask(k, i));
+  }
+}
+
+const RingMask& ButterflyMasks::extraordinary(int valence, RingMask& scratch) const {
+  if (valence < kTabulatedValences) return extraordinary_[valence];
+  return scratch = extraordinary_mask(valence);
+}
+
+const RingMask& ButterflyMasks::crease_vertex(int triangles, int edge, RingMask& scratch) const {
+  if (triangles < kTabulatedTriangles) return crease_[triangles][edge];
+  return scratch = crease_vertex_mask(triangles, edge);
 }
 
 }  // namespace batten
