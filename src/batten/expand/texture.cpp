@@ -23,18 +23,18 @@ void drop_attribute(Mesh& mesh, const std::string& name) {
 /// Of any length: at each vertex the mean of its corners' normals, so that it stands between the sides of a crease.
 Points vertex_normals(const Mesh& mesh) {
   Points normals = Points::Zero(mesh.vertex_count(), 3);
-  const Attribute* at_vertices = nullptr;
-  const Attribute* at_corners = nullptr;
   for (const Attribute& attribute : mesh.attributes) {
-    if (attribute.name == "normal") (attribute.per_corner() ? at_corners : at_vertices) = &attribute;
-  }
-  if (at_corners == nullptr) {
-    normals = at_vertices->values;
-  } else {
-    for (std::size_t c = 0; c < mesh.face_vertices.size(); ++c) {
-      const Index row = at_corners->corner_rows[c];
-      if (row >= 0) normals.row(mesh.face_vertices[c]) += at_corners->values.row(row);
+    if (attribute.name != "normal") continue;
+    if (!attribute.per_corner()) {
+      normals = attribute.values;
+      continue;
     }
+    normals.setZero();
+    for (std::size_t c = 0; c < mesh.face_vertices.size(); ++c) {
+      const Index row = attribute.corner_rows[c];
+      if (row >= 0) normals.row(mesh.face_vertices[c]) += attribute.values.row(row);
+    }
+    break;
   }
   return normals;
 }

@@ -192,10 +192,10 @@ void AdaptiveBuilder::close() {
                                          " faces allowed; take larger bounds, fewer levels or allow more faces");
   }
   if (!faces_.added.empty()) add_vertices(faces_.added, vertices);
-  const auto normals_at = [&](std::span<const SurfacePlace> places) {
-    Points points(static_cast<Eigen::Index>(places.size()), 3);
+  const auto normals_at = [&](std::span<const SurfacePlace> at) {
+    Points points(static_cast<Eigen::Index>(at.size()), 3);
     Points normals(points.rows(), 3);
-    evaluate(places, points, normals);
+    evaluate(at, points, normals);
     return normals;
   };
   normals_ = corner_normals(normals_at, faces_, forest_, vertex_normals_);
