@@ -86,8 +86,8 @@ TEST_P(Docs, LinksLeadSomewhere) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Page, Docs, testing::ValuesIn(pages()), [](const auto& info) {
-  std::string name = info.param.string();
+INSTANTIATE_TEST_SUITE_P(Page, Docs, testing::ValuesIn(pages()), [](const auto& page) {
+  std::string name = page.param.string();
   std::replace_if(
       name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
   return name;

@@ -55,8 +55,9 @@ void expect_subset(const Mesh& mesh, const Scheme& scheme, const AdaptiveMesh& a
     const Index other = uniform.vertex(place.face, static_cast<Index>(i), static_cast<Index>(j));
     for (int c = 0; c < 3; ++c) {
       EXPECT_NEAR(adaptive.mesh.points(v, c), points[3 * other + c], 1e-14);
-      if (!topology.has_creases() && !in_single_triangle(topology, place))
+      if (!topology.has_creases() && !in_single_triangle(topology, place)) {
         EXPECT_NEAR(own(v, c), normals[3 * other + c], 1e-9);
+      }
     }
   }
 }
@@ -74,7 +75,9 @@ TEST(AdaptiveButterfly, TakesVerticesOfTheUniformMeshWithoutCracks) {
     // A crack would be a boundary that the mesh does not have; with a Topology of it there are no T-junctions.
     const Topology coarse(mesh);
     const Topology fine(adaptive.mesh);
-    if (boundary_edges(coarse) == 0) EXPECT_EQ(boundary_edges(fine), 0);
+    if (boundary_edges(coarse) == 0) {
+      EXPECT_EQ(boundary_edges(fine), 0);
+    }
     const auto euler = [](const Topology& t, Index isolated) {
       return t.vertex_count() - isolated - t.edge_count() + t.face_count();
     };
