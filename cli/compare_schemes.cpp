@@ -32,7 +32,7 @@ struct Compared {
   int iterations = 0;
   double max_error = 0.0;  ///< in the mesh's unit
   Mesh mesh;
-  Eigen::VectorXd mean;
+  Scalars mean;
   Fairness fairness;
 };
 

@@ -19,7 +19,7 @@ namespace {
 /// What was measured.
 struct Measured {
   std::vector<NearestPoint> nearest;
-  Eigen::VectorXd distances;  ///< negative inside of a closed surface
+  Scalars distances;  ///< negative inside of a closed surface
   bool closed = false;
   double diagonal = 0.0;   ///< of the surface
   double tolerance = 0.0;  ///< of each distance
@@ -51,7 +51,7 @@ Measured measure(const Topology& topology, const Scheme& scheme, const Mesh& con
 }
 
 /// The points that are farthest away, the farthest first.
-std::vector<Index> farthest(const Eigen::VectorXd& distances, std::size_t most) {
+std::vector<Index> farthest(const Scalars& distances, std::size_t most) {
   std::vector<Index> points(static_cast<std::size_t>(distances.size()));
   std::iota(points.begin(), points.end(), 0);
   most = std::min(most, points.size());
@@ -108,7 +108,7 @@ nlohmann::ordered_json report_json(const DistanceArguments& arguments, const Mea
 }
 
 /// At most so many: half of them the farthest, the others spread over all. In ascending order.
-std::vector<Index> drawn_points(const Eigen::VectorXd& distances, Index most) {
+std::vector<Index> drawn_points(const Scalars& distances, Index most) {
   const auto count = static_cast<Index>(distances.size());
   std::vector<Index> drawn(static_cast<std::size_t>(count));
   std::iota(drawn.begin(), drawn.end(), 0);
@@ -154,7 +154,7 @@ void draw_distances(const DistanceArguments& arguments, const Mesh& scan, const 
   draw(subject, arguments.picture, arguments.common.quiet);
 }
 
-void write_distances(const CommonArguments& common, Mesh scan, const Eigen::VectorXd& distances) {
+void write_distances(const CommonArguments& common, Mesh scan, const Scalars& distances) {
   if (common.output.empty()) return;
   std::erase_if(scan.attributes, [](const Attribute& attribute) { return attribute.name == "distance"; });
   scan.attributes.push_back({"distance", distances, {}});

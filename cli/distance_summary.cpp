@@ -31,7 +31,7 @@ double round_width(double width) {
 
 }  // namespace
 
-DistanceSummary summarize(const Eigen::VectorXd& distances) {
+DistanceSummary summarize(const Scalars& distances) {
   DistanceSummary summary;
   std::vector<double> sizes(static_cast<std::size_t>(distances.size()));
   for (Eigen::Index i = 0; i < distances.size(); ++i) {
@@ -54,7 +54,7 @@ DistanceSummary summarize(const Eigen::VectorXd& distances) {
   return summary;
 }
 
-Histogram histogram_of(const Eigen::VectorXd& values, int most_bars) {
+Histogram histogram_of(const Scalars& values, int most_bars) {
   Histogram histogram;
   const double low = std::min(values.minCoeff(), 0.0);
   const double high = std::max(values.maxCoeff(), 0.0);

@@ -1,6 +1,5 @@
 /// \file What a set of distances amounts to: extremes, means, shares, a histogram.
 #pragma once
-#include <Eigen/Core>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -23,7 +22,7 @@ struct DistanceSummary {
   Index inside_count = 0;
 };
 /// Not empty. O(n).
-DistanceSummary summarize(const Eigen::VectorXd& distances);
+DistanceSummary summarize(const Scalars& distances);
 
 /// Bars of one width, which is 1, 2 or 5 times a power of ten; 0 is the edge of one.
 struct Histogram {
@@ -32,7 +31,7 @@ struct Histogram {
   std::vector<Index> counts;
 };
 /// At most so many bars; of equal numbers one.
-Histogram histogram_of(const Eigen::VectorXd& values, int most_bars = 16);
+Histogram histogram_of(const Scalars& values, int most_bars = 16);
 /// One line a bar.
 std::vector<std::string> histogram_lines(const Histogram& histogram);
 nlohmann::ordered_json histogram_json(const Histogram& histogram);

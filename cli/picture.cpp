@@ -57,7 +57,7 @@ ScaleRequest scale_request(Coloring coloring, SchemeKind kind) {
 }
 
 /// The numbers at the control mesh's vertices.
-Eigen::VectorXd vertex_field(const Subject& subject, const Topology& topology, Coloring coloring) {
+Scalars vertex_field(const Subject& subject, const Topology& topology, Coloring coloring) {
   if (coloring == Coloring::Valence) return valences(topology);
   if (coloring == Coloring::Sharpness) return sharpnesses(topology);
   const Values limit = LimitMatrix(topology, subject.scheme).apply(subject.control.points);
@@ -72,7 +72,7 @@ Eigen::VectorXd vertex_field(const Subject& subject, const Topology& topology, C
   }
   // A mesh that was refined once for alpha has more vertices than targets; those have no error of their own.
   const Values missed = limit.topRows(subject.targets->rows()) - *subject.targets;
-  Eigen::VectorXd errors = Eigen::VectorXd::Zero(limit.rows());
+  Scalars errors = Scalars::Zero(limit.rows());
   errors.head(missed.rows()) = missed.rowwise().norm();
   return errors;
 }
@@ -98,7 +98,7 @@ Scene surface_scene(const Subject& subject, Coloring coloring, const Progress& p
   const Topology control(subject.control, progress);
   const int levels = subject.levels >= 0 ? subject.levels : picture_levels(control);
   const bool curved = coloring == Coloring::Mean || coloring == Coloring::Gaussian;
-  Eigen::VectorXd field;
+  Scalars field;
   if (is_scalar(coloring) && !curved) field = vertex_field(subject, control, coloring);
   Topology topology = with_surface_holes(control, subject.scheme);
   Scheme scheme = subject.scheme;
@@ -254,7 +254,7 @@ static std::optional<ColorScale> share_scale(std::vector<Scene>& scenes, const S
   Eigen::Index count = 0;
   for (const Scene& scene : scenes) count += scene.scalars.size();
   if (count == 0) return std::nullopt;
-  Eigen::VectorXd all(count);
+  Scalars all(count);
   Eigen::Index begin = 0;
   for (const Scene& scene : scenes) {
     all.segment(begin, scene.scalars.size()) = scene.scalars;

@@ -17,7 +17,7 @@ struct Subject {
   Points markers = Points(0, 3);
   double marker_radius = 0.0;     ///< in the mesh's unit; 0: the renderer's choice
   std::optional<Points> targets;  ///< of the vertices, for Coloring::Error
-  Eigen::VectorXd numbers;        ///< instead of a Coloring: one a marker, or one a vertex where there is no marker
+  Scalars numbers;                ///< instead of a Coloring: one a marker, or one a vertex where there is no marker
   ScaleRequest numbers_scale;
   Mesh before;  ///< as it is, for the left panel
   std::string before_caption;

@@ -12,10 +12,10 @@ double edge_sharpness(const Topology& topology, Index edge) {
 
 /// Vertices first, then one an edge, then, for Catmull-Clark, one a face (Refinement's order).
 template <typename EdgeValue, typename FaceValue>
-Eigen::VectorXd child_field(const Topology& topology, SchemeKind kind, const Eigen::VectorXd& field,
-                            const EdgeValue& edge_value, const FaceValue& face_value) {
+Scalars child_field(const Topology& topology, SchemeKind kind, const Scalars& field, const EdgeValue& edge_value,
+                    const FaceValue& face_value) {
   const Index faces = kind == SchemeKind::CatmullClark ? topology.face_count() : 0;
-  Eigen::VectorXd child(field.size() + topology.edge_count() + faces);
+  Scalars child(field.size() + topology.edge_count() + faces);
   child.head(field.size()) = field;
   for (Index e = 0; e < topology.edge_count(); ++e) {
     const Index h = topology.edge_half_edge(e);
@@ -27,8 +27,8 @@ Eigen::VectorXd child_field(const Topology& topology, SchemeKind kind, const Eig
 
 }  // namespace
 
-Eigen::VectorXd valences(const Topology& topology) {
-  Eigen::VectorXd field = Eigen::VectorXd::Zero(topology.vertex_count());
+Scalars valences(const Topology& topology) {
+  Scalars field = Scalars::Zero(topology.vertex_count());
   for (Index v = 0; v < topology.vertex_count(); ++v) {
     if (topology.is_isolated(v)) continue;
     field[v] = (topology.is_boundary_vertex(v) ? 2.0 : 1.0) * topology.vertex_face_count(v);
@@ -36,8 +36,8 @@ Eigen::VectorXd valences(const Topology& topology) {
   return field;
 }
 
-Eigen::VectorXd sharpnesses(const Topology& topology) {
-  Eigen::VectorXd field = Eigen::VectorXd::Zero(topology.vertex_count());
+Scalars sharpnesses(const Topology& topology) {
+  Scalars field = Scalars::Zero(topology.vertex_count());
   for (Index v = 0; v < topology.vertex_count(); ++v)
     field[v] = std::min(topology.vertex_sharpness(v), kInfiniteSharpness);
   for (Index e = 0; e < topology.edge_count(); ++e) {
@@ -48,7 +48,7 @@ Eigen::VectorXd sharpnesses(const Topology& topology) {
   return field;
 }
 
-Eigen::VectorXd spread(const Topology& topology, SchemeKind kind, const Eigen::VectorXd& field) {
+Scalars spread(const Topology& topology, SchemeKind kind, const Scalars& field) {
   return child_field(
       topology, kind, field, [&](Index /*edge*/, Index a, Index b) { return 0.5 * (field[a] + field[b]); },
       [&](Index f) {
@@ -58,8 +58,7 @@ Eigen::VectorXd spread(const Topology& topology, SchemeKind kind, const Eigen::V
       });
 }
 
-Eigen::VectorXd spread_creases(const Topology& topology, SchemeKind kind, const Eigen::VectorXd& field, int level,
-                               Index even_count) {
+Scalars spread_creases(const Topology& topology, SchemeKind kind, const Scalars& field, int level, Index even_count) {
   return child_field(
       topology, kind, field,
       [&](Index edge, Index a, Index b) {

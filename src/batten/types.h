@@ -15,6 +15,10 @@ using Index = std::int32_t;
 using Values = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor | Eigen::DontAlign>;
 /// N-by-3, likewise.
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor | Eigen::DontAlign>;
+/// N numbers, one an element, likewise.
+using Scalars = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor | Eigen::DontAlign>;
+/// k numbers, as in a row of Values, likewise.
+using ValueRow = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor | Eigen::DontAlign>;
 /// A parameter type: binds to Values, to Points and to blocks of rows or columns without a copy.
 using ConstValuesRef = const Eigen::Ref<const Values, 0, Eigen::OuterStride<>>&;
 /// Likewise, to be written to.

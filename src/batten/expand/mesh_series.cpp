@@ -204,15 +204,15 @@ double MeshSeries::weight(Index vertex) const {
   return parts_->cotangents ? parts_->cotangents->scales[vertex] : parts_->matrix.row_scale(vertex);
 }
 
-Eigen::RowVectorXd MeshSeries::weighted_centroid(ConstValuesRef values) const {
+ValueRow MeshSeries::weighted_centroid(ConstValuesRef values) const {
   require_vertex_rows(parts_->topology, values);
-  Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(values.cols());
+  ValueRow sum = ValueRow::Zero(values.cols());
   double weights = 0.0;
   for (Index v = 0; v < parts_->topology.vertex_count(); ++v) {
     sum += weight(v) * values.row(v);
     weights += weight(v);
   }
-  return weights > 0.0 ? Eigen::RowVectorXd(sum / weights) : sum;
+  return weights > 0.0 ? ValueRow(sum / weights) : sum;
 }
 
 }  // namespace batten

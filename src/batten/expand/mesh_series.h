@@ -70,7 +70,7 @@ class MeshSeries {
   /// The factor that makes the smooth rows of A symmetric among themselves.
   double weight(Index vertex) const;
   /// sum w_i values_i / sum w_i: on a closed mesh without creases, corners and kept vertices no smoothing moves it.
-  Eigen::RowVectorXd weighted_centroid(ConstValuesRef values) const;
+  ValueRow weighted_centroid(ConstValuesRef values) const;
 
  private:
   struct Parts;

@@ -113,7 +113,7 @@ std::vector<Values> morph_sequence(const MeshSeries& series, ConstValuesRef from
                                             std::to_string(options.rho) + " and " + std::to_string(options.steps));
   }
   Values difference = from - to;
-  Eigen::RowVectorXd offset = Eigen::RowVectorXd::Zero(from.cols());
+  ValueRow offset = ValueRow::Zero(from.cols());
   if (options.align && from.rows() > 0) offset = series.weighted_centroid(difference);
   difference.rowwise() -= offset;
   std::vector<Values> sequence{Values(from)};

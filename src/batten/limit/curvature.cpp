@@ -63,7 +63,7 @@ SurfacePlace corner_place(Index face, Index corner, int levels, bool quads) {
 }
 
 /// In place of NaN at a vertex: the mean over its neighbours that have a number.
-double mean_around(const Topology& topology, const Eigen::VectorXd& field, Index vertex) {
+double mean_around(const Topology& topology, const Scalars& field, Index vertex) {
   double sum = 0.0;
   int count = 0;
   topology.for_each_outgoing(vertex, [&](Index h) {
@@ -101,8 +101,7 @@ Buffer<SurfacePlace> vertex_places(const LimitSurface& surface, const Topology& 
 Curvature limit_curvature(const LimitSurface& surface, const Topology& refined) {
   const Buffer<SurfacePlace> places = vertex_places(surface, refined);
   const double none = std::numeric_limits<double>::quiet_NaN();
-  Curvature exact{Eigen::VectorXd::Constant(refined.vertex_count(), none),
-                  Eigen::VectorXd::Constant(refined.vertex_count(), none)};
+  Curvature exact{Scalars::Constant(refined.vertex_count(), none), Scalars::Constant(refined.vertex_count(), none)};
   parallel_for(refined.vertex_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (std::ptrdiff_t v = begin; v < end; ++v) {
       if (places[v].face < 0) continue;

@@ -1,7 +1,5 @@
 /// \file Mean and Gaussian curvature of the limit surface at the vertices of a refined mesh.
 #pragma once
-#include <Eigen/Core>
-
 #include "batten/buffer.h"
 #include "batten/limit/limit_surface.h"
 
@@ -15,8 +13,8 @@ Buffer<SurfacePlace> vertex_places(const LimitSurface& surface, const Topology& 
 
 /// Row v belongs to vertex v of the refined mesh.
 struct Curvature {
-  Eigen::VectorXd mean;      ///< V, 1/unit: 1/r on a sphere with outward normals
-  Eigen::VectorXd gaussian;  ///< V, 1/unit^2
+  Scalars mean;      ///< V, 1/unit: 1/r on a sphere with outward normals
+  Scalars gaussian;  ///< V, 1/unit^2
 };
 
 /// Exact, by the surface's second derivatives; on a crease, that of the side where the vertex's fan starts. At

@@ -78,8 +78,8 @@ DiscreteCurvature discrete_curvature(const Topology& topology, ConstValuesRef po
   if (!points.allFinite()) throw Error(ErrorCode::NotFinite, "the points hold a number that is not finite");
   const FaceTriangles triangles(topology, points);
   const double nothing = std::numeric_limits<double>::quiet_NaN();
-  DiscreteCurvature curvature{Eigen::VectorXd::Constant(topology.vertex_count(), nothing),
-                              Eigen::VectorXd::Zero(topology.vertex_count())};
+  DiscreteCurvature curvature{Scalars::Constant(topology.vertex_count(), nothing),
+                              Scalars::Zero(topology.vertex_count())};
   parallel_for(
       topology.vertex_count(),
       [&](std::ptrdiff_t begin, std::ptrdiff_t end) {

@@ -4,8 +4,6 @@
 /// After Meyer, Desbrun, Schroeder and Barr 2003 (key MDSB03): the cotangent Laplacian of the points over an area
 /// around each vertex is twice the mean curvature times the normal. Faces are split as triangulate_face does.
 #pragma once
-#include <Eigen/Core>
-
 #include "batten/mesh/topology.h"
 #include "batten/progress.h"
 
@@ -13,8 +11,8 @@ namespace batten {
 
 /// Row v belongs to vertex v.
 struct DiscreteCurvature {
-  Eigen::VectorXd mean;  ///< V, 1/unit: 1/r on a sphere with outward normals; NaN where it is left out
-  Eigen::VectorXd area;  ///< V, unit^2: the mixed Voronoi areas of MDSB03, which cover the mesh once
+  Scalars mean;  ///< V, 1/unit: 1/r on a sphere with outward normals; NaN where it is left out
+  Scalars area;  ///< V, unit^2: the mixed Voronoi areas of MDSB03, which cover the mesh once
 };
 
 /// The Laplacian's part along the area-weighted mean of the facets' normals, over twice the Voronoi area. That area is

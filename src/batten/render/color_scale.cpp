@@ -66,7 +66,7 @@ double ColorScale::position(double value) const {
   return value <= low ? 0.0 : std::min(std::log(value / low) / std::log(high / low), 1.0);
 }
 
-ColorScale fit_color_scale(const Eigen::VectorXd& values, const ScaleRequest& request) {
+ColorScale fit_color_scale(const Eigen::Ref<const Scalars>& values, const ScaleRequest& request) {
   if (!(request.outliers >= 0.0 && request.outliers <= 0.4))
     throw Error(ErrorCode::BadArgument, "the share of outliers must be 0 to 0.4");
   ColorScale scale;

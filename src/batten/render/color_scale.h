@@ -1,9 +1,9 @@
 /// \file Numbers as colours: the maps, the range that a picture shows, and the bar that says so.
 #pragma once
-#include <Eigen/Core>
 #include <string>
 
 #include "batten/render/picture.h"
+#include "batten/types.h"
 
 namespace batten {
 
@@ -47,7 +47,7 @@ struct ScaleRequest {
 /// Fits the bar's ends to the numbers; NaN and infinities do not count. A linear bar of numbers that are not negative
 /// starts at zero if it would start near it. O(n).
 /// Throws Error(BadArgument) for outliers outside [0, 0.4].
-ColorScale fit_color_scale(const Eigen::VectorXd& values, const ScaleRequest& request);
+ColorScale fit_color_scale(const Eigen::Ref<const Scalars>& values, const ScaleRequest& request);
 
 /// The bar with its title, unit and ticks, to stand beside a picture of this height; its width follows the text.
 /// Where numbers lie beyond an end, that end is an arrow, and the extreme is written beside it.

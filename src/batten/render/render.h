@@ -22,12 +22,12 @@ struct Scene {
   /// V-by-3 shading normals, or one row for each entry of surface.face_vertices, or empty: from the faces, split where
   /// they meet at about 40 degrees or more. Either sign; zero: the facet's own.
   Values normals;
-  Values colors;            ///< V-by-3 linear colours, or empty: surface_color
-  Eigen::VectorXd scalars;  ///< V numbers to be drawn in `scale`'s colours (NaN: grey), or empty
+  Values colors;    ///< V-by-3 linear colours, or empty: surface_color
+  Scalars scalars;  ///< V numbers to be drawn in `scale`'s colours (NaN: grey), or empty
   ColorScale scale;
-  Points markers = Points(0, 3);   ///< drawn as small spheres (the targets)
-  Eigen::VectorXd marker_scalars;  ///< one number a marker, to be drawn likewise, or empty: marker_color
-  Mesh lines;                      ///< its edges are drawn as thin tubes (the control mesh)
+  Points markers = Points(0, 3);  ///< drawn as small spheres (the targets)
+  Scalars marker_scalars;         ///< one number a marker, to be drawn likewise, or empty: marker_color
+  Mesh lines;                     ///< its edges are drawn as thin tubes (the control mesh)
   Color surface_color{0.60F, 0.335F, 0.140F};
   Color back_color{0.27F, 0.31F, 0.35F};  ///< of the faces' back sides
   Color marker_color{0.018F, 0.040F, 0.115F};
