@@ -27,6 +27,14 @@ TEST(Triangulated, DoesNotFoldAnArrowhead) {
   EXPECT_EQ(test::faces_of(triangulated(mesh)), (test::Faces{{0, 1, 3}, {1, 2, 3}}));
 }
 
+TEST(Triangulated, KnowsInsideFromOutsideFarFromTheOrigin) {
+  Mesh mesh = test::mesh_of_faces(5, {{0, 1, 2, 3, 4}});
+  mesh.points << 0, 0, 0, 4, 0, 0, 4, 4, 0, 2, 1, 0, 0, 4, 0;  // a notch at 3
+  const test::Faces near = test::faces_of(triangulated(mesh));
+  mesh.points.array() += 1e9;
+  EXPECT_EQ(test::faces_of(triangulated(mesh)), near);
+}
+
 /// Two quads with the same two vertices at opposite corners, back to back: one diagonal each, not the same.
 TEST(Triangulated, DoesNotMakeAnEdgeTwice) {
   Mesh mesh = test::mesh_of_faces(4, {{0, 1, 2, 3}, {3, 2, 1, 0}});

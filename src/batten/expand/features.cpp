@@ -1,28 +1,17 @@
 #include "batten/expand/features.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "batten/error.h"
+#include "batten/mesh/face_normal.h"
 #include "batten/mesh/sides.h"
 #include "batten/parallel/parallel.h"
 
 namespace batten {
 
 namespace {
-
-Eigen::Vector3d at(ConstValuesRef points, Index v) { return {points(v, 0), points(v, 1), points(v, 2)}; }
-
-/// Of length twice the area (Newell).
-Eigen::Vector3d face_normal(const Topology& topology, ConstValuesRef points, Index f) {
-  const Eigen::Vector3d base = at(points, topology.origin(topology.face_begin(f)));
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (Index h = topology.face_begin(f); h < topology.face_end(f); ++h)
-    sum += (at(points, topology.origin(h)) - base).cross(at(points, topology.destination(h)) - base);
-  return sum;
-}
 
 /// Unit normals and areas of the faces.
 struct FaceNormals {

@@ -1,29 +1,14 @@
 #include "batten/expand/resample.h"
 
-#include <Eigen/Geometry>
 #include <vector>
 
 #include "batten/error.h"
+#include "batten/expand/self_intersections.h"
 #include "batten/interpolate/interpolator.h"
 #include "batten/limit/limit_matrix.h"
 #include "batten/progress.h"
 
 namespace batten {
-namespace {
-
-Eigen::Vector3d face_area(const Topology& topology, ConstValuesRef points, Index face) {
-  const Index first = topology.face_begin(face);
-  const Eigen::Vector3d origin = points.row(topology.origin(first)).transpose();
-  Eigen::Vector3d area = Eigen::Vector3d::Zero();
-  for (Index h = first + 1; h + 1 < topology.face_end(face); ++h) {
-    const Eigen::Vector3d a = points.row(topology.origin(h)).transpose() - origin;
-    const Eigen::Vector3d b = points.row(topology.origin(h + 1)).transpose() - origin;
-    area += a.cross(b);
-  }
-  return area;
-}
-
-}  // namespace
 
 Resampled resample(const Topology& source, const Scheme& source_scheme, ConstValuesRef source_control,
                    const Topology& target, const Scheme& target_scheme, ConstValuesRef target_control, double reach,
@@ -51,9 +36,7 @@ Resampled resample(const Topology& source, const Scheme& source_scheme, ConstVal
                     " of its diagonal: only surfaces that lie close to each other can be resampled so; move or scale "
                     "the one onto the other first");
   }
-  for (Index f = 0; f < source.face_count(); ++f) {
-    if (face_area(source, limit, f).dot(face_area(source, places, f)) < 0.0) ++result.folded_faces;
-  }
+  result.folded_faces = count_turned_faces(source, limit, places);
   InterpolateOptions options;
   options.on_singular = OnSingular::LeastSquares;
   Interpolant interpolant =

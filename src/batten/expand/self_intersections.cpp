@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "batten/error.h"
+#include "batten/mesh/face_normal.h"
 #include "batten/mesh/face_triangles.h"
 #include "batten/parallel/parallel.h"
 
@@ -203,17 +204,6 @@ class PairTest {
   ConstValuesRef points_;
 };
 
-Eigen::Vector3d area_normal(const Topology& topology, ConstValuesRef points, Index f) {
-  const Eigen::Vector3d base = points.row(topology.origin(topology.face_begin(f))).transpose();
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (Index h = topology.face_begin(f); h < topology.face_end(f); ++h) {
-    const Eigen::Vector3d from = points.row(topology.origin(h)).transpose();
-    const Eigen::Vector3d to = points.row(topology.destination(h)).transpose();
-    sum += (from - base).cross(to - base);
-  }
-  return sum;
-}
-
 }  // namespace
 
 SelfIntersections find_self_intersections(const Topology& topology, ConstValuesRef points, const Progress& progress) {
@@ -255,7 +245,7 @@ Index count_turned_faces(const Topology& topology, ConstValuesRef before, ConstV
   const auto turned = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     Index count = 0;
     for (auto f = static_cast<Index>(begin); f < end; ++f)
-      count += area_normal(topology, before, f).dot(area_normal(topology, after, f)) < 0.0 ? 1 : 0;
+      count += face_normal(topology, before, f).dot(face_normal(topology, after, f)) < 0.0 ? 1 : 0;
     return count;
   };
   return parallel_reduce(topology.face_count(), Index{0}, turned, [](Index a, Index b) { return a + b; });

@@ -1,6 +1,5 @@
 #include "batten/expand/texture.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include "batten/error.h"
 #include "batten/limit/limit_matrix.h"
 #include "batten/limit/surface_mesh.h"
+#include "batten/mesh/face_normal.h"
 #include "batten/parallel/parallel.h"
 #include "batten/progress.h"
 
@@ -43,15 +43,9 @@ Points vertex_normals(const Mesh& mesh) {
 Points flat_normals(const Mesh& mesh) {
   Points normals = Points::Zero(mesh.vertex_count(), 3);
   for (Index f = 0; f < mesh.face_count(); ++f) {
-    const Index* vertices = mesh.face_vertices.data() + mesh.face_offsets[f];
-    const Index size = mesh.face_size(f);
-    Eigen::RowVector3d area = Eigen::RowVector3d::Zero();
-    const Eigen::RowVector3d origin = mesh.points.row(vertices[0]);
-    for (Index i = 1; i + 1 < size; ++i) {
-      area += Eigen::RowVector3d(mesh.points.row(vertices[i]) - origin)
-                  .cross(Eigen::RowVector3d(mesh.points.row(vertices[i + 1]) - origin));
-    }
-    for (Index i = 0; i < size; ++i) normals.row(vertices[i]) += area;
+    const Eigen::RowVector3d normal = face_normal(mesh, f).transpose();
+    for (Index c = mesh.face_offsets[f]; c < mesh.face_offsets[f + 1]; ++c)
+      normals.row(mesh.face_vertices[c]) += normal;
   }
   return normals;
 }

@@ -1,26 +1,8 @@
 #include "batten/io/drawn_normals.h"
 
-#include <Eigen/Geometry>
+#include "batten/mesh/face_normal.h"
 
 namespace batten::io {
-
-namespace {
-
-/// Newell's normal, twice the area long; corners relative to the first, for faces far from the origin.
-Eigen::Vector3d face_normal(const Mesh& mesh, Index face) {
-  const Index first = mesh.face_offsets[face];
-  const Eigen::RowVector3d origin = mesh.points.row(mesh.face_vertices[first]);
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  Eigen::Vector3d before = Eigen::Vector3d::Zero();
-  for (Index corner = first + 1; corner < mesh.face_offsets[face + 1]; ++corner) {
-    const Eigen::Vector3d point = (mesh.points.row(mesh.face_vertices[corner]) - origin).transpose();
-    normal += before.cross(point);
-    before = point;
-  }
-  return normal;
-}
-
-}  // namespace
 
 Buffer<std::uint8_t> hidden_faces(const Mesh& mesh) {
   Buffer<std::uint8_t> hidden(static_cast<std::size_t>(mesh.face_count()), 0);

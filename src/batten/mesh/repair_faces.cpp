@@ -2,17 +2,15 @@
 #include <algorithm>
 #include <numeric>
 
+#include "batten/mesh/face_normal.h"
 #include "batten/mesh/repair_draft.h"
 
 namespace batten {
 
 Eigen::Vector3d Draft::normal(Index face) const {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  const Eigen::Vector3d origin = point(vertices[offsets[face]]);
-  for (Index c = offsets[face] + 1; c + 1 < offsets[face + 1]; ++c) {
-    sum += (point(vertices[c]) - origin).cross(point(vertices[c + 1]) - origin);
-  }
-  return sum;
+  const Index first = offsets[face];
+  return polygon_normal<Eigen::Vector3d>(offsets[face + 1] - first,
+                                         [&](Index i) -> Eigen::Vector3d { return point(vertices[first + i]); });
 }
 
 EdgeFace Draft::edge_face(Index side, const SideTable& sides, const Orientation& orientation, bool forward) const {

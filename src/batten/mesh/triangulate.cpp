@@ -1,11 +1,12 @@
 #include "batten/mesh/triangulate.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <tuple>
 #include <unordered_set>
+
+#include "batten/mesh/face_normal.h"
 
 namespace batten {
 
@@ -31,19 +32,12 @@ Eigen::Vector3d point(const Mesh& mesh, Index corner) {
   return mesh.points.row(mesh.face_vertices[corner]).transpose();
 }
 
-/// Newell's normal, not of unit length.
-Eigen::Vector3d face_normal(const Mesh& mesh, Index first, Index size) {
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  for (Index i = 0; i < size; ++i) normal += point(mesh, first + i).cross(point(mesh, first + (i + 1) % size));
-  return normal;
-}
-
 /// The ring of corners that are still to be cut from a face.
 class EarCutter {
  public:
-  EarCutter(const Mesh& mesh, Index first, Index size, const Edges& edges) : mesh_(mesh), first_(first), edges_(edges) {
-    normal_ = face_normal(mesh, first, size);
-    for (Index i = 0; i < size; ++i) left_.push_back(i);
+  EarCutter(const Mesh& mesh, Index face, const Edges& edges)
+      : mesh_(mesh), first_(mesh.face_offsets[face]), edges_(edges), normal_(face_normal(mesh, face)) {
+    for (Index i = 0; i < mesh.face_size(face); ++i) left_.push_back(i);
   }
 
   void cut(std::vector<Triangle>& out) {
@@ -119,7 +113,7 @@ void split_face(const Mesh& mesh, Index face, const Edges& edges, std::vector<Tr
       out.push_back({0, 2, 3});
     }
   } else {
-    EarCutter(mesh, first, size, edges).cut(out);
+    EarCutter(mesh, face, edges).cut(out);
   }
 }
 

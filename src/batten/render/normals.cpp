@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "batten/mesh/face_normal.h"
 #include "batten/parallel/parallel.h"
 #include "batten/render/geometry.h"
 
@@ -25,13 +26,9 @@ Vec unit(const Vec& v) {
   return length > 0.0F ? Vec(v / length) : Vec(Vec::Zero());
 }
 
-/// Newell's sum, which is right for polygons that are not planar or not convex.
 Vec face_normal(const Mesh& mesh, const Buffer<Vec>& points, Index face) {
   const Index* v = mesh.face_vertices.data() + mesh.face_offsets[face];
-  const Index size = mesh.face_size(face);
-  Vec sum = Vec::Zero();
-  for (Index c = 1; c + 1 < size; ++c) sum += (points[v[c]] - points[v[0]]).cross(points[v[c + 1]] - points[v[0]]);
-  return unit(sum);
+  return unit(polygon_normal<Vec>(mesh.face_size(face), [&](Index i) { return points[v[i]]; }));
 }
 
 /// The faces' corners at each vertex: vertex v has corners[offsets[v]] to corners[offsets[v + 1]].
