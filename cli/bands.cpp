@@ -5,7 +5,7 @@
 
 #include "batten/error.h"
 #include "batten/expand/bands.h"
-#include "batten/expand/boundary.h"
+#include "batten/expand/point_series.h"
 #include "batten/parallel/parallel.h"
 #include "cli/common.h"
 #include "cli/expand.h"
@@ -65,15 +65,6 @@ nlohmann::ordered_json report_json(const BandsArguments& arguments, const Topolo
           {"seconds", stages.json()}};
 }
 
-MeshSeries make_series(const BandsArguments& arguments, const Topology& topology, const Scheme& scheme,
-                       const Mesh& mesh) {
-  SeriesOptions options;
-  options.matrix = arguments.matrix;
-  if (arguments.matrix == SeriesMatrix::Cotangent) options.shape = mesh.points;
-  if (arguments.keep_boundary) options.kept = boundary_marks(topology);
-  return {topology, scheme, options, ProgressBar("building", arguments.common.quiet).callback()};
-}
-
 }  // namespace
 
 int run_bands(const BandsArguments& arguments) {
@@ -89,7 +80,9 @@ int run_bands(const BandsArguments& arguments) {
   if (gains.empty()) gains.assign(static_cast<std::size_t>(arguments.count), 1.0);
   const std::vector<Band> bands = octave_bands(scheme.kind, arguments.matrix, static_cast<int>(gains.size()));
   const Topology topology(mesh, ProgressBar("connecting", common.quiet).callback());
-  const MeshSeries series = make_series(arguments, topology, scheme, mesh);
+  const MeshSeries series(topology, scheme,
+                          series_of_points(arguments.matrix, arguments.keep_boundary, topology, mesh.points),
+                          ProgressBar("building", common.quiet).callback());
   ProgressBar bar("splitting", common.quiet);
   const Equalized result = equalize(series, mesh.points, bands, gains, bar.callback());
   Mesh mixed = with_points(mesh, result.values);

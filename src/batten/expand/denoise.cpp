@@ -1,12 +1,12 @@
 #include "batten/expand/denoise.h"
 
-#include <cmath>
 #include <optional>
 
 #include "batten/error.h"
-#include "batten/expand/boundary.h"
+#include "batten/expand/movement.h"
+#include "batten/expand/point_series.h"
 #include "batten/expand/volume.h"
-#include "batten/parallel/parallel.h"
+#include "batten/progress.h"
 
 namespace batten {
 
@@ -36,43 +36,6 @@ MeshSeries make_series(const Topology& topology, const Scheme& scheme, SeriesMat
                       .smooth(points, 2, kPasses, progress_within(progress, 0.3, 0.6));
   options.matrix = matrix;
   return {topology, scheme, options, progress_within(progress, 0.6, 1.0)};
-}
-
-void measure_movement(ConstValuesRef before, ConstValuesRef normals, DenoiseResult& result) {
-  struct Moved {
-    double squares = 0.0;
-    double along = 0.0;
-    double most = 0.0;
-    Index vertex = -1;
-  };
-  const auto rows = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    Moved moved;
-    for (std::ptrdiff_t v = begin; v < end; ++v) {
-      double square = 0.0;
-      double along = 0.0;
-      for (int c = 0; c < 3; ++c) {
-        const double shift = result.points(v, c) - before(v, c);
-        square += shift * shift;
-        along += shift * normals(v, c);
-      }
-      moved.squares += square;
-      moved.along += along * along;
-      if (moved.vertex < 0 || square > moved.most) {
-        moved.most = square;
-        moved.vertex = static_cast<Index>(v);
-      }
-    }
-    return moved;
-  };
-  const Moved all = parallel_reduce(before.rows(), Moved(), rows, [](const Moved& a, const Moved& b) {
-    const Moved& most = b.vertex >= 0 && (a.vertex < 0 || b.most > a.most) ? b : a;
-    return Moved{a.squares + b.squares, a.along + b.along, most.most, most.vertex};
-  });
-  const double count = std::max<double>(1.0, static_cast<double>(before.rows()));
-  result.moved = std::sqrt(all.squares / count);
-  result.removed = std::sqrt(all.along / count);
-  result.most_moved = std::sqrt(all.most);
-  result.most_moved_vertex = all.vertex;
 }
 
 }  // namespace
@@ -108,7 +71,11 @@ DenoiseResult denoise(const Mesh& mesh, const Scheme& scheme, const DenoiseOptio
   if (options.keep_volume) result.scaled_components = restore_volumes(series, before, result.points);
   report_progress(progress, 0.97);
   result.volume_after = component_volumes(*topology, result.points).sum();
-  measure_movement(mesh.points, normals, result);
+  const Movement movement = measure_movement(mesh.points, result.points);
+  result.moved = movement.rms;
+  result.most_moved = movement.most;
+  result.most_moved_vertex = movement.vertex;
+  result.removed = measure_movement_along(normals, mesh.points, result.points);
   return result;
 }
 

@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "batten/error.h"
-#include "batten/expand/boundary.h"
+#include "batten/expand/movement.h"
+#include "batten/expand/point_series.h"
 #include "batten/progress.h"
 
 namespace batten {
@@ -31,22 +32,16 @@ SharpenResult sharpen(const Topology& topology, const Scheme& scheme, ConstValue
   const int passes = std::max(options.passes, 1);
   result.amount = std::min(options.amount, (std::pow(options.most_growth, 1.0 / passes) - 1.0) / powers);
   result.growth = std::pow(1.0 + result.amount * powers, options.passes);
-  SeriesOptions series_options;
-  series_options.matrix = options.matrix;
-  if (options.matrix == SeriesMatrix::Cotangent) series_options.shape = points;
-  if (options.keep_boundary) series_options.kept = boundary_marks(topology);
-  const MeshSeries series(topology, scheme, series_options, progress_within(progress, 0.0, 0.3));
+  const MeshSeries series(topology, scheme, series_of_points(options.matrix, options.keep_boundary, topology, points),
+                          progress_within(progress, 0.0, 0.3));
   std::vector<double> coefficients(static_cast<std::size_t>(options.n) + 1, 0.0);
   coefficients[0] = 1.0;
   for (int i = options.m; i <= options.n; ++i) coefficients[i] = result.amount;
   result.points = series.polynomial(points, coefficients, options.passes, progress_within(progress, 0.3, 0.5));
-  const Eigen::VectorXd moved = (result.points - points).rowwise().norm();
-  if (moved.size() > 0) {
-    Eigen::Index most = 0;
-    result.most_moved = moved.maxCoeff(&most);
-    result.most_moved_vertex = static_cast<Index>(most);
-    result.moved = moved.norm() / std::sqrt(static_cast<double>(moved.size()));
-  }
+  const Movement movement = measure_movement(points, result.points);
+  result.moved = movement.rms;
+  result.most_moved = movement.most;
+  result.most_moved_vertex = movement.vertex;
   if (options.check) {
     result.before = find_self_intersections(topology, points, progress_within(progress, 0.5, 0.75));
     result.after = find_self_intersections(topology, result.points, progress_within(progress, 0.75, 1.0));
