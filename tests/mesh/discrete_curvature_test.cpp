@@ -114,6 +114,15 @@ TEST(DiscreteCurvature, LeavesOutBoundariesCreasesAndCorners) {
   EXPECT_NEAR(sums.area, 4.0, 1e-14);
 }
 
+TEST(DiscreteCurvature, LeavesOutTheRimWhereNothingIsTagged) {
+  const Mesh mesh = grid(4, 4);
+  const DiscreteCurvature found = discrete_curvature(Topology(mesh), mesh.points);
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const bool rim = v < 5 || v >= 20 || v % 5 == 0 || v % 5 == 4;
+    EXPECT_EQ(std::isnan(found.mean[v]), rim) << v;
+  }
+}
+
 TEST(DiscreteCurvature, WantsFinitePointsOfThreeColumns) {
   const Mesh mesh = icosahedron();
   const Topology topology(mesh);

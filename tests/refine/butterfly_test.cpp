@@ -186,7 +186,7 @@ TEST(Butterfly, SemiSharpCreasesLastForSoManyLevels) {
   EXPECT_NE(refined(2.0, 3), refined(kInfiniteSharpness, 3));
 }
 
-/// Jittered uniformly by any amount, a cone of 360 triangles stays a fair cone: its pole's rule is bounded.
+/// At its poles the weights of 360 neighbours stay small: no vertex is thrown far out.
 TEST(Butterfly, TakesAPoleOf360) {
   const Mesh mesh = test::bipyramid(360);
   const RefinedSurface fine = refine(Topology(mesh), kModified, mesh.points, 3);
