@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "batten/error.h"
 #include "batten/mesh/check.h"
@@ -78,19 +79,21 @@ struct SpokeTable {
 };
 
 SpokeTable gather_spokes(TopologyTables& tables, const Progress& progress) {
-  const Index vertex_count = tables.vertex_count;
+  const auto vertex_count = static_cast<std::size_t>(tables.vertex_count);
   const auto face_count = static_cast<std::ptrdiff_t>(tables.face_offsets.size()) - 1;
   SpokeTable table;
-  table.offsets.assign(static_cast<std::size_t>(vertex_count) + 1, 0);
-  // Counted two places to the right would need a copy; counted in place, each vertex's offset is moved back below.
+  table.offsets.assign(vertex_count + 1, 0);
+  // A half-edge's place among those that leave its vertex is kept where its twin will stand: to count is dear, for
+  // several threads add to one number, and need be done once only.
+  tables.twins.resize(tables.origins.size());
   parallel_for(
       static_cast<std::ptrdiff_t>(tables.origins.size()),
       [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-        for (std::ptrdiff_t h = begin; h < end; ++h) atomic_add(table.offsets[tables.origins[h]], 1);
+        for (std::ptrdiff_t h = begin; h < end; ++h) tables.twins[h] = atomic_add(table.offsets[tables.origins[h]], 1);
       },
       1 << 14, progress_within(progress, 0.0, 0.3));
   Index sum = 0;
-  for (Index& offset : table.offsets) offset = sum += offset;
+  for (Index& offset : table.offsets) sum += std::exchange(offset, sum);
   table.spokes.resize(tables.origins.size());
   tables.faces.resize(tables.origins.size());
   parallel_for(
@@ -101,7 +104,7 @@ SpokeTable gather_spokes(TopologyTables& tables, const Progress& progress) {
           const Index last = tables.face_offsets[f + 1] - 1;
           for (Index h = first; h <= last; ++h) {
             tables.faces[h] = static_cast<Index>(f);
-            const Index slot = atomic_add(table.offsets[tables.origins[h]], -1) - 1;
+            const Index slot = table.offsets[tables.origins[h]] + tables.twins[h];
             table.spokes[slot] = {tables.origins[h == last ? first : h + 1], h};
           }
         }
@@ -147,7 +150,6 @@ Index find_spoke(const SpokeTable& table, Index from, Index to) {
 
 /// Each thread writes the entries of its own vertices' spokes, and of their twins from the lower end.
 void match_twins(const SpokeTable& table, TopologyTables& tables, const Progress& progress) {
-  tables.twins.resize(tables.origins.size());
   parallel_for(
       tables.vertex_count,
       [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
@@ -168,6 +170,7 @@ void match_twins(const SpokeTable& table, TopologyTables& tables, const Progress
 }
 
 Index previous_half_edge(const TopologyTables& tables, Index h) {
+  if (tables.uniform_face_size == 4) return (h & ~3) | ((h + 3) & 3);
   const Index f = tables.faces[h];
   return h == tables.face_offsets[f] ? tables.face_offsets[f + 1] - 1 : h - 1;
 }
