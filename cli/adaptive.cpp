@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "batten/parallel/parallel.h"
-#include "cli/common.h"
+#include "cli/job.h"
 #include "cli/picture.h"
 
 namespace batten::cli {
@@ -48,31 +47,26 @@ void draw_result(const SubdivideArguments& arguments, const Mesh& before, const 
 
 int run_adaptive(const SubdivideArguments& arguments) {
   const CommonArguments& common = arguments.common;
-  const ThreadLimit limit(common.threads);
-  Stages stages;
-  nlohmann::ordered_json repairs;
-  const Mesh mesh = read_input(common, &repairs);
-  stages.finish("read");
+  Job job("subdivide", common);
+  const Mesh& mesh = job.mesh;
   const Scheme scheme = scheme_for(common, mesh);
-  const Topology topology(mesh, ProgressBar("connecting", common.quiet).callback());
-  stages.finish("topology");
+  const Topology topology = job.connect();
   const double diagonal = bounding_diagonal(mesh.points);
   const AdaptiveOptions options = options_of(arguments, scheme, diagonal);
   const AdaptiveMesh result = tessellate_adaptively(topology, scheme, mesh.points, options,
                                                     ProgressBar("tessellating", common.quiet).callback());
-  stages.finish("tessellate");
+  job.stages.finish("tessellate");
   // Butterfly surfaces have no closed form to measure by.
   std::optional<double> chord;
   if (!is_interpolating(scheme.kind)) {
     chord = measured_chord(LimitSurface(topology, scheme, mesh.points), result,
                            ProgressBar("measuring", common.quiet).callback());
-    stages.finish("measure");
+    job.stages.finish("measure");
   }
-  write_output(common, result.mesh);
-  stages.finish("write");
+  job.write(result.mesh);
   if (!arguments.picture.path.empty()) {
     draw_result(arguments, mesh, result.mesh);
-    stages.finish("picture");
+    job.stages.finish("picture");
   }
   Table table;
   table.add("mesh", mesh_text(topology));
@@ -87,15 +81,9 @@ int run_adaptive(const SubdivideArguments& arguments) {
     table.add("not certain",
               fmt::format("in {}, which --levels lets go no deeper", count_of(result.unmet, "cell", "cells")));
   }
-  table.add("time", stages.text());
-  table.print(common);
-  write_json(
-      common.report,
-      {{"verb", "subdivide"},
-       {"input", common.input},
-       {"output", common.output},
-       {"repairs", repairs},
-       {"chord",
+  job.print(table);
+  job.report(
+      {{"chord",
         {{"asked", options.chord}, {"measured", chord ? nlohmann::ordered_json(*chord) : nlohmann::ordered_json()}}},
        {"edge_length", {{"asked", options.edge_length}, {"longest", result.longest_edge}}},
        {"angle", {{"asked", options.angle}, {"widest", result.widest_angle}}},
@@ -103,8 +91,7 @@ int run_adaptive(const SubdivideArguments& arguments) {
        {"cells_not_certain", result.unmet},
        {"scheme", scheme_json(scheme)},
        {"vertices", result.mesh.vertex_count()},
-       {"faces", result.mesh.face_count()},
-       {"seconds", stages.json()}});
+       {"faces", result.mesh.face_count()}});
   return 0;
 }
 

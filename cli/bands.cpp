@@ -6,9 +6,8 @@
 #include "batten/error.h"
 #include "batten/expand/bands.h"
 #include "batten/expand/point_series.h"
-#include "batten/parallel/parallel.h"
-#include "cli/common.h"
 #include "cli/expand.h"
+#include "cli/job.h"
 
 namespace batten::cli {
 namespace {
@@ -21,7 +20,7 @@ std::string band_text(const std::vector<Band>& bands, std::size_t j) {
 
 void print_table(const BandsArguments& arguments, const Topology& topology, const Scheme& scheme,
                  const std::vector<Band>& bands, const std::vector<double>& sizes, const std::vector<double>& gains,
-                 const Stages& stages) {
+                 const Job& job) {
   Table table;
   table.add("mesh", mesh_text(topology));
   table.add("scheme", weights_text(scheme, arguments.matrix));
@@ -30,8 +29,7 @@ void print_table(const BandsArguments& arguments, const Topology& topology, cons
               fmt::format("{:<20}  rms {:<10.4g}{}", band_text(bands, j), sizes[j],
                           gains[j] != 1.0 ? fmt::format("  times {:g}", gains[j]) : std::string()));
   }
-  table.add("time", stages.text());
-  table.print(arguments.common);
+  job.print(table);
 }
 
 nlohmann::ordered_json bands_json(const std::vector<Band>& bands, const std::vector<double>& energies,
@@ -49,37 +47,27 @@ nlohmann::ordered_json bands_json(const std::vector<Band>& bands, const std::vec
 }
 
 nlohmann::ordered_json report_json(const BandsArguments& arguments, const Topology& topology, const Scheme& scheme,
-                                   const Mesh& mesh, const nlohmann::ordered_json& bands,
-                                   const nlohmann::ordered_json& repairs, const Stages& stages) {
-  return {{"verb", "bands"},
-          {"input", arguments.common.input},
-          {"output", arguments.common.output},
-          {"vertices", topology.vertex_count()},
+                                   const Mesh& mesh, const nlohmann::ordered_json& bands) {
+  return {{"vertices", topology.vertex_count()},
           {"faces", topology.face_count()},
-          {"repairs", repairs},
           {"scheme", scheme_json(scheme)},
           {"weights", weights_word(arguments.matrix)},
           {"mean_edge", mean_edge_length(topology, mesh.points)},
-          {"bands", bands},
-          {"threads", thread_count()},
-          {"seconds", stages.json()}};
+          {"bands", bands}};
 }
 
 }  // namespace
 
 int run_bands(const BandsArguments& arguments) {
   const CommonArguments& common = arguments.common;
-  const ThreadLimit limit(common.threads);
-  Stages stages;
-  nlohmann::ordered_json repairs;
-  const Mesh mesh = read_input(common, &repairs);
-  stages.finish("read");
+  Job job("bands", common);
+  const Mesh& mesh = job.mesh;
   require_faces(common, mesh);
   const Scheme scheme = scheme_for(common, mesh);
   std::vector<double> gains = arguments.gains;
   if (gains.empty()) gains.assign(static_cast<std::size_t>(arguments.count), 1.0);
   const std::vector<Band> bands = octave_bands(scheme.kind, arguments.matrix, static_cast<int>(gains.size()));
-  const Topology topology(mesh, ProgressBar("connecting", common.quiet).callback());
+  const Topology topology = job.connect();
   const MeshSeries series(topology, scheme,
                           series_of_points(arguments.matrix, arguments.keep_boundary, topology, mesh.points),
                           ProgressBar("building", common.quiet).callback());
@@ -94,22 +82,20 @@ int run_bands(const BandsArguments& arguments) {
         },
         bar.callback());
   }
-  stages.finish("split");
-  write_output(common, mixed);
-  stages.finish("write");
+  job.stages.finish("split");
+  job.write(mixed);
   if (!arguments.picture.path.empty()) {
     draw_moved(mesh, mixed, arguments.picture, "mixed anew", common.quiet);
-    stages.finish("picture");
+    job.stages.finish("picture");
   }
   std::vector<double> sizes;
   for (const double energy : result.energies) sizes.push_back(std::sqrt(energy));
   if (!arguments.plot.empty()) {
     plot_bands(arguments.plot, bands, sizes, gains);
-    stages.finish("plot");
+    job.stages.finish("plot");
   }
-  print_table(arguments, topology, scheme, bands, sizes, gains, stages);
-  write_json(common.report, report_json(arguments, topology, scheme, mesh, bands_json(bands, result.energies, gains),
-                                        repairs, stages));
+  print_table(arguments, topology, scheme, bands, sizes, gains, job);
+  job.report(report_json(arguments, topology, scheme, mesh, bands_json(bands, result.energies, gains)));
   return 0;
 }
 

@@ -7,8 +7,7 @@
 #include "batten/interpolate/interpolator.h"
 #include "batten/limit/limit_matrix.h"
 #include "batten/mesh/discrete_curvature.h"
-#include "batten/parallel/parallel.h"
-#include "cli/common.h"
+#include "cli/job.h"
 #include "cli/picture.h"
 
 namespace batten::cli {
@@ -158,43 +157,34 @@ nlohmann::ordered_json compared_json(const std::vector<Compared>& all) {
 
 int run_compare_schemes(const SubdivideArguments& arguments) {
   const CommonArguments& common = arguments.common;
-  const ThreadLimit limit(common.threads);
-  Stages stages;
-  nlohmann::ordered_json repairs;
-  const Mesh mesh = read_input(common, &repairs);
-  stages.finish("read");
+  Job job("subdivide", common);
+  const Mesh& mesh = job.mesh;
   if (!all_triangles(mesh)) {
     throw Error(ErrorCode::NotTriangles,
                 common.input +
                     ": the schemes to compare have triangles in common only; split its faces by "
                     "--triangulate");
   }
-  const Topology topology(mesh, ProgressBar("connecting", common.quiet).callback());
+  const Topology topology = job.connect();
   const int levels = arguments.levels < 0 ? picture_levels(topology) : arguments.levels;
-  stages.finish("topology");
   std::vector<Compared> all;
   for (const ComparedScheme& contestant : kComparedSchemes) {
     all.push_back(compare(contestant, arguments, topology, mesh, levels));
-    stages.finish(contestant.name);
+    job.stages.finish(contestant.name);
   }
   if (!arguments.picture.path.empty()) {
     draw_compared(all, mesh, arguments.picture, common.quiet);
-    stages.finish("picture");
+    job.stages.finish("picture");
   }
   Table table;
   table.add("mesh", mesh_text(topology));
   table.add("refined", count_of(levels, "level", "levels"));
-  table.add("time", stages.text());
-  table.print(common);
+  job.print(table);
   print_compared(all, common);
-  write_json(common.report, {{"verb", "subdivide"},
-                             {"input", common.input},
-                             {"repairs", repairs},
-                             {"levels", levels},
-                             {"vertices", mesh.vertex_count()},
-                             {"faces", mesh.face_count()},
-                             {"compared", compared_json(all)},
-                             {"seconds", stages.json()}});
+  job.report({{"levels", levels},
+              {"vertices", mesh.vertex_count()},
+              {"faces", mesh.face_count()},
+              {"compared", compared_json(all)}});
   return 0;
 }
 

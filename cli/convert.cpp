@@ -1,27 +1,14 @@
-#include "batten/parallel/parallel.h"
-#include "cli/common.h"
+#include "cli/job.h"
 
 namespace batten::cli {
 
 int run_convert(const CommonArguments& arguments) {
-  const ThreadLimit limit(arguments.threads);
-  Stages stages;
-  nlohmann::ordered_json repairs;
-  const Mesh mesh = read_input(arguments, &repairs);
-  stages.finish("read");
-  write_output(arguments, mesh);
-  stages.finish("write");
+  Job job("convert", arguments);
+  job.write(job.mesh);
   Table table;
-  table.add("mesh", size_text(mesh));
-  table.add("time", stages.text());
-  table.print(arguments);
-  write_json(arguments.report, {{"verb", "convert"},
-                                {"input", arguments.input},
-                                {"output", arguments.output},
-                                {"vertices", mesh.vertex_count()},
-                                {"faces", mesh.face_count()},
-                                {"repairs", repairs},
-                                {"seconds", stages.json()}});
+  table.add("mesh", size_text(job.mesh));
+  job.print(table);
+  job.report({{"vertices", job.mesh.vertex_count()}, {"faces", job.mesh.face_count()}});
   return 0;
 }
 

@@ -3,9 +3,8 @@
 
 #include "batten/error.h"
 #include "batten/expand/strength.h"
-#include "batten/parallel/parallel.h"
-#include "cli/common.h"
 #include "cli/expand.h"
+#include "cli/job.h"
 
 namespace batten::cli {
 namespace {
@@ -31,7 +30,7 @@ std::string volume_text(const DenoiseArguments& arguments, const DenoiseResult& 
 }
 
 void print_table(const DenoiseArguments& arguments, const Topology& topology, const Scheme& scheme,
-                 const DenoiseResult& result, double diagonal, const Stages& stages) {
+                 const DenoiseResult& result, double diagonal, const Job& job) {
   const SmoothingChoice& smoothing = result.smoothing;
   Table table;
   table.add("mesh", mesh_text(topology));
@@ -49,23 +48,17 @@ void print_table(const DenoiseArguments& arguments, const Topology& topology, co
   table.add("moved", fmt::format("{:.4g} rms, at most {:.4g} at vertex {}", result.moved, result.most_moved,
                                  result.most_moved_vertex));
   table.add("volume", volume_text(arguments, result));
-  table.add("time", stages.text());
-  table.print(arguments.common);
+  job.print(table);
 }
 
 nlohmann::ordered_json report_json(const DenoiseArguments& arguments, const Topology& topology, const Scheme& scheme,
-                                   const DenoiseResult& result, double diagonal, const nlohmann::ordered_json& repairs,
-                                   const Stages& stages) {
+                                   const DenoiseResult& result, double diagonal) {
   const SmoothingChoice& smoothing = result.smoothing;
   nlohmann::ordered_json features = nlohmann::ordered_json::array();
   for (const Crease& crease : result.features) features.push_back({crease.a, crease.b});
   return {
-      {"verb", "denoise"},
-      {"input", arguments.common.input},
-      {"output", arguments.common.output},
       {"vertices", topology.vertex_count()},
       {"faces", topology.face_count()},
-      {"repairs", repairs},
       {"diagonal", diagonal},
       {"scheme", scheme_json(scheme)},
       {"weights", weights_word(arguments.options.matrix)},
@@ -86,37 +79,31 @@ nlohmann::ordered_json report_json(const DenoiseArguments& arguments, const Topo
       {"scaled_components", result.scaled_components},
       {"volume_before", result.volume_before},
       {"volume_after", result.volume_after},
-      {"threads", thread_count()},
-      {"peak_memory_bytes", peak_memory_bytes()},
-      {"seconds", stages.json()}};
+      {"peak_memory_bytes", peak_memory_bytes()}};
 }
 
 }  // namespace
 
 int run_denoise(const DenoiseArguments& arguments) {
   const CommonArguments& common = arguments.common;
-  const ThreadLimit limit(common.threads);
-  Stages stages;
-  nlohmann::ordered_json repairs;
-  const Mesh mesh = read_input(common, &repairs);
-  stages.finish("read");
+  Job job("denoise", common);
+  const Mesh& mesh = job.mesh;
   require_faces(common, mesh);
   const Scheme scheme = scheme_for(common, mesh);
   DenoiseOptions options = arguments.options;
   if (arguments.strength) options.passes = passes_for(scheme.kind, options.matrix, options.m, *arguments.strength);
   const DenoiseResult result = denoise(mesh, scheme, options, ProgressBar("smoothing", common.quiet).callback());
-  stages.finish("smooth");
+  job.stages.finish("smooth");
   const Mesh smooth = with_points(mesh, result.points);
-  write_output(common, smooth);
-  stages.finish("write");
+  job.write(smooth);
   if (!arguments.picture.path.empty()) {
     draw_moved(mesh, smooth, arguments.picture, "denoised", common.quiet);
-    stages.finish("picture");
+    job.stages.finish("picture");
   }
   const Topology topology(mesh);
   const double diagonal = bounding_diagonal(mesh.points);
-  print_table(arguments, topology, scheme, result, diagonal, stages);
-  write_json(common.report, report_json(arguments, topology, scheme, result, diagonal, repairs, stages));
+  print_table(arguments, topology, scheme, result, diagonal, job);
+  job.report(report_json(arguments, topology, scheme, result, diagonal));
   return 0;
 }
 

@@ -9,8 +9,8 @@
 #include "batten/io/io.h"
 #include "batten/limit/surface_side.h"
 #include "batten/parallel/parallel.h"
-#include "cli/common.h"
 #include "cli/distance_summary.h"
+#include "cli/job.h"
 #include "cli/picture.h"
 
 namespace batten::cli {
@@ -80,14 +80,10 @@ nlohmann::ordered_json points_json(const Measured& measured, const std::vector<I
 }
 
 nlohmann::ordered_json report_json(const DistanceArguments& arguments, const Measured& measured,
-                                   const DistanceSummary& summary, const Histogram& histogram, const Scheme& scheme,
-                                   const nlohmann::ordered_json& repairs, const Stages& stages) {
-  return {{"verb", "distance"},
-          {"scan", arguments.scan},
+                                   const DistanceSummary& summary, const Histogram& histogram, const Scheme& scheme) {
+  return {{"scan", arguments.scan},
           {"surface", arguments.common.input},
-          {"output", arguments.common.output},
           {"points", measured.distances.size()},
-          {"repairs", repairs},
           {"scheme", scheme_json(scheme)},
           {"diagonal", measured.diagonal},
           {"tolerance", measured.tolerance},
@@ -102,9 +98,7 @@ nlohmann::ordered_json report_json(const DistanceArguments& arguments, const Mea
           {"max_inside", summary.most_inside},
           {"points_inside", summary.inside_count},
           {"histogram", histogram_json(histogram)},
-          {"farthest", points_json(measured, farthest(measured.distances, 10))},
-          {"threads", thread_count()},
-          {"seconds", stages.json()}};
+          {"farthest", points_json(measured, farthest(measured.distances, 10))}};
 }
 
 /// At most so many: half of them the farthest, the others spread over all. In ascending order.
@@ -161,9 +155,8 @@ void write_distances(const CommonArguments& common, Mesh scan, const Scalars& di
   write_output(common, scan);
 }
 
-void print_table(const DistanceArguments& arguments, const Topology& topology, const Scheme& scheme,
-                 const Measured& measured, const DistanceSummary& summary, const Histogram& histogram,
-                 const Stages& stages) {
+void print_table(const Topology& topology, const Scheme& scheme, const Measured& measured,
+                 const DistanceSummary& summary, const Histogram& histogram, const Job& job) {
   Table table;
   const auto part = [&](double distance) { return measured.diagonal > 0.0 ? distance / measured.diagonal : 0.0; };
   table.add("scan", count_of(measured.distances.size(), "point", "points"));
@@ -184,41 +177,38 @@ void print_table(const DistanceArguments& arguments, const Topology& topology, c
   for (std::size_t i = 0; i < bars.size(); ++i) {
     table.add(i == 0 ? "histogram" : i == 1 && measured.closed ? "inside < 0" : "", bars[i]);
   }
-  table.add("time", stages.text());
-  table.print(arguments.common);
+  job.print(table);
 }
 
 }  // namespace
 
 int run_distance(const DistanceArguments& arguments) {
   const CommonArguments& common = arguments.common;
-  const ThreadLimit limit(common.threads);
-  Stages stages;
+  Job job("distance", common);
+  const Mesh& control = job.mesh;
   const Mesh scan = read_mesh(arguments.scan, "", ProgressBar("reading", common.quiet).callback());
   if (scan.vertex_count() == 0)
     throw Error(ErrorCode::BadArgument, arguments.scan + ": there are no points to measure");
-  nlohmann::ordered_json repairs;
-  const Mesh control = read_input(common, &repairs);
-  stages.finish("read");
+  job.stages.finish("read scan");
   if (control.face_count() == 0) {
     throw Error(
         ErrorCode::BadArgument,
         common.input + ": there are no faces, only points; the surface comes second: batten distance SCAN SURFACE");
   }
-  const Topology topology(control, ProgressBar("connecting", common.quiet).callback());
+  const Topology topology = job.connect();
   const Scheme scheme = scheme_for(common, control);
   const Measured measured = measure(topology, scheme, control, scan.points, common.quiet);
   const DistanceSummary summary = summarize(measured.distances);
   const Histogram histogram = histogram_of(measured.distances);
-  stages.finish("measure");
+  job.stages.finish("measure");
   write_distances(common, scan, measured.distances);
-  stages.finish("write");
+  job.stages.finish("write");
   if (!arguments.picture.path.empty()) {
     draw_distances(arguments, scan, control, scheme, measured);
-    stages.finish("picture");
+    job.stages.finish("picture");
   }
-  print_table(arguments, topology, scheme, measured, summary, histogram, stages);
-  write_json(common.report, report_json(arguments, measured, summary, histogram, scheme, repairs, stages));
+  print_table(topology, scheme, measured, summary, histogram, job);
+  job.report(report_json(arguments, measured, summary, histogram, scheme));
   return 0;
 }
 

@@ -6,7 +6,7 @@
 #include "batten/io/io.h"
 #include "batten/limit/surface_mesh.h"
 #include "batten/parallel/parallel.h"
-#include "cli/common.h"
+#include "cli/job.h"
 #include "cli/picture.h"
 
 namespace batten::cli {
@@ -75,18 +75,13 @@ std::string singular_text(const Interpolant& result, OnSingular choice) {
 }
 
 nlohmann::ordered_json report_json(const InterpolateArguments& arguments, const Topology& topology,
-                                   const Scheme& scheme, const Interpolant& result, double diagonal,
-                                   const nlohmann::ordered_json& repairs, const Stages& stages) {
+                                   const Scheme& scheme, const Interpolant& result, double diagonal) {
   nlohmann::ordered_json worst = nlohmann::ordered_json::array();
   for (const RowError& entry : result.worst) worst.push_back({{"vertex", entry.row}, {"error", entry.error}});
-  return {{"verb", "interpolate"},
-          {"input", arguments.common.input},
-          {"output", arguments.common.output},
-          {"vertices", topology.vertex_count()},
+  return {{"vertices", topology.vertex_count()},
           {"faces", topology.face_count()},
           {"edges", topology.edge_count()},
           {"isolated_vertices", isolated_count(topology)},
-          {"repairs", repairs},
           {"diagonal", diagonal},
           {"scheme", scheme_json(scheme)},
           {"method", result.report.method_name},
@@ -101,9 +96,7 @@ nlohmann::ordered_json report_json(const InterpolateArguments& arguments, const 
           {"max_movement", result.max_movement},
           {"singular_components", result.singular_components},
           {"alpha_used", !result.vertex_alpha.empty()},
-          {"threads", thread_count()},
-          {"peak_memory_bytes", peak_memory_bytes()},
-          {"seconds", stages.json()}};
+          {"peak_memory_bytes", peak_memory_bytes()}};
 }
 
 /// The surface with the points that it passes through and its control mesh; colours speak for themselves.
@@ -123,7 +116,7 @@ Subject subject_of(const Mesh& given, const Mesh& control, const Scheme& scheme,
 }
 
 void print_table(const InterpolateArguments& arguments, const Topology& topology, const Scheme& scheme,
-                 const Interpolant& result, double diagonal, const std::string& written, const Stages& stages) {
+                 const Interpolant& result, double diagonal, const std::string& written, const Job& job) {
   Table table;
   table.add("mesh", mesh_text(topology));
   table.add("scheme", scheme_text(scheme));
@@ -132,19 +125,17 @@ void print_table(const InterpolateArguments& arguments, const Topology& topology
   add_error_rows(table, result, diagonal);
   if (result.singular_components > 0) table.add("singular", singular_text(result, arguments.options.on_singular));
   if (!written.empty()) table.add("written", written);
-  table.add("time", stages.text());
-  table.print(arguments.common);
+  job.print(table);
 }
 
 /// What was reached is written already; the exit code still has to tell.
 void require_tolerance(const Interpolant& result, const InterpolateOptions& options) {
   const bool least_squares = result.singular_components > 0 && options.on_singular == OnSingular::LeastSquares;
   if (!result.report.converged && !least_squares) {
-    throw Error(
-        ErrorCode::NotConverged,
-        fmt::format(
-            "the tolerance {:g} was not reached in {} iterations; what was reached is written (try --method auto)",
-            options.tolerance, result.report.iterations));
+    throw Error(ErrorCode::NotConverged,
+                fmt::format("the tolerance {:g} was not reached in {} iterations; what was reached is written{}",
+                            options.tolerance, result.report.iterations,
+                            options.method == SolveMethod::Auto ? "" : " (try --method auto)"));
   }
 }
 
@@ -152,18 +143,14 @@ void require_tolerance(const Interpolant& result, const InterpolateOptions& opti
 
 int run_interpolate(const InterpolateArguments& arguments) {
   const CommonArguments& common = arguments.common;
-  const ThreadLimit limit(common.threads);
-  Stages stages;
-  nlohmann::ordered_json repairs;
-  Mesh mesh = read_input(common, &repairs);
-  stages.finish("read");
+  Job job("interpolate", common);
+  Mesh& mesh = job.mesh;
   if (mesh.face_count() == 0) {
     throw Error(ErrorCode::BadArgument,
                 common.input + ": there are no faces, only points; a surface needs a mesh over its points");
   }
-  const Topology topology(mesh, ProgressBar("connecting", common.quiet).callback());
+  const Topology topology = job.connect();
   const Scheme scheme = scheme_for(common, mesh);
-  stages.finish("topology");
   const double diagonal = bounding_diagonal(mesh.points);
   const bool drawn = !arguments.picture.path.empty();
   const Mesh given = drawn ? mesh : Mesh();
@@ -173,35 +160,35 @@ int run_interpolate(const InterpolateArguments& arguments) {
   {
     const Interpolator interpolator(topology, scheme, arguments.options,
                                     ProgressBar("building", common.quiet).callback());
-    stages.finish("build");
+    job.stages.finish("build");
     ProgressBar bar("interpolating", common.quiet);
     result = interpolator.solve(mesh.points, bar.callback());
     interpolate_attributes(mesh, interpolator, common.quiet);
   }
-  stages.finish("solve");
+  job.stages.finish("solve");
   const Mesh control = control_mesh(std::move(mesh), topology, scheme, result, common.quiet);
   const std::string written = write_result(arguments, control, scheme.after_first_step());
-  stages.finish("write");
+  job.stages.finish("write");
   if (drawn) {
     draw(subject_of(given, control, scheme, arguments.picture), arguments.picture, common.quiet);
-    stages.finish("picture");
+    job.stages.finish("picture");
   }
   if (arguments.compare_methods) {
     methods = compare_methods(topology, scheme, arguments.options, targets, common.quiet);
-    stages.finish("compare");
+    job.stages.finish("compare");
   }
   if (!arguments.plot.empty() && arguments.compare_methods) {
     plot_methods(arguments.plot, methods, arguments.options.tolerance * diagonal);
-    stages.finish("plot");
+    job.stages.finish("plot");
   } else if (!arguments.plot.empty()) {
     plot_residuals(arguments.plot, result.report.method_name, result.report, arguments.options.tolerance * diagonal);
-    stages.finish("plot");
+    job.stages.finish("plot");
   }
-  print_table(arguments, topology, scheme, result, diagonal, written, stages);
+  print_table(arguments, topology, scheme, result, diagonal, written, job);
   if (arguments.compare_methods) print_methods(methods, diagonal, common);
-  nlohmann::ordered_json report = report_json(arguments, topology, scheme, result, diagonal, repairs, stages);
+  nlohmann::ordered_json report = report_json(arguments, topology, scheme, result, diagonal);
   if (arguments.compare_methods) report["compared_methods"] = methods_json(methods);
-  write_json(common.report, report);
+  job.report(report);
   require_tolerance(result, arguments.options);
   return 0;
 }

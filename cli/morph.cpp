@@ -8,7 +8,7 @@
 #include "batten/io/animation.h"
 #include "batten/io/io.h"
 #include "batten/parallel/parallel.h"
-#include "cli/common.h"
+#include "cli/job.h"
 #include "cli/picture.h"
 
 namespace batten::cli {
@@ -180,16 +180,13 @@ void add_frames(const Run& run, const std::vector<Frame>& frames, const Values& 
 
 int run_morph(const MorphArguments& arguments) {
   const CommonArguments& common = arguments.common;
-  const ThreadLimit limit(common.threads);
-  Stages stages;
-  Table table;
-  nlohmann::ordered_json report{
-      {"verb", "morph"}, {"input", common.input}, {"target", arguments.target}, {"output", common.output}};
-  const Mesh mesh = read_input(common, &report["repairs"]);
+  Job job("morph", common);
+  const Mesh& mesh = job.mesh;
   const Mesh target = read_target(arguments);
-  stages.finish("read");
-  const Topology topology(mesh, ProgressBar("connecting", common.quiet).callback());
-  stages.finish("topology");
+  job.stages.finish("read target");
+  const Topology topology = job.connect();
+  Table table;
+  nlohmann::ordered_json report{{"target", arguments.target}};
   Run run{arguments, mesh, topology, scheme_for(common, mesh), is_glb(common), arguments.frames};
   if (run.frames < 0) run.frames = run.animated ? 24 : 11;
   check_usage(run);
@@ -197,23 +194,23 @@ int run_morph(const MorphArguments& arguments) {
   table.add("scheme", scheme_text(run.scheme));
   const Values end = target_points(run, target, table, report);
   const Values moved = end - mesh.points;
-  stages.finish("match");
+  job.stages.finish("match");
   const MeshSeries series(topology, run.scheme, {}, ProgressBar("building", common.quiet).callback());
   std::vector<Frame> frames;
   if (arguments.rho) {
     frames = sequence_frames(run, series, end);
-    stages.finish("morph");
+    job.stages.finish("morph");
   } else {
     const Morph morph(series, mesh.points, end, arguments.options, ProgressBar("morphing", common.quiet).callback());
     frames = frames_of(run, morph);
-    stages.finish("morph");
+    job.stages.finish("morph");
     if (run.animated) write_animated(run, morph);
   }
   if (!run.animated) write_frames(run, frames);
-  stages.finish("write");
+  job.stages.finish("write");
   if (!arguments.picture.path.empty()) {
     draw_frames(run, frames);
-    stages.finish("picture");
+    job.stages.finish("picture");
   }
   const double largest = moved.rows() > 0 ? moved.rowwise().norm().maxCoeff() : 0.0;
   table.add("morph", what_of(arguments));
@@ -224,12 +221,10 @@ int run_morph(const MorphArguments& arguments) {
                                              : count_of(static_cast<std::int64_t>(frames.size()), "file", "files");
     table.add("written", written);
   }
-  table.add("time", stages.text());
-  table.print(common);
+  job.print(table);
   report["max_movement"] = largest;
   add_frames(run, frames, end, report);
-  report["seconds"] = stages.json();
-  write_json(common.report, report);
+  job.report(report);
   return 0;
 }
 

@@ -1,9 +1,8 @@
 /// Detail made stronger.
 #include <fmt/format.h>
 
-#include "batten/parallel/parallel.h"
-#include "cli/common.h"
 #include "cli/expand.h"
+#include "cli/job.h"
 
 namespace batten::cli {
 namespace {
@@ -27,7 +26,7 @@ std::string check_text(const SharpenResult& result) {
 }
 
 void print_table(const SharpenArguments& arguments, const Topology& topology, const Scheme& scheme,
-                 const SharpenResult& result, const Stages& stages) {
+                 const SharpenResult& result, const Job& job) {
   const SharpenOptions& options = arguments.options;
   Table table;
   table.add("mesh", mesh_text(topology));
@@ -41,20 +40,14 @@ void print_table(const SharpenArguments& arguments, const Topology& topology, co
   table.add("moved", fmt::format("{:.4g} rms, at most {:.4g} at vertex {}", result.moved, result.most_moved,
                                  result.most_moved_vertex));
   if (options.check) table.add("check", check_text(result));
-  table.add("time", stages.text());
-  table.print(arguments.common);
+  job.print(table);
 }
 
 nlohmann::ordered_json report_json(const SharpenArguments& arguments, const Topology& topology, const Scheme& scheme,
-                                   const SharpenResult& result, const nlohmann::ordered_json& repairs,
-                                   const Stages& stages) {
+                                   const SharpenResult& result) {
   const SharpenOptions& options = arguments.options;
-  nlohmann::ordered_json json = {{"verb", "sharpen"},
-                                 {"input", arguments.common.input},
-                                 {"output", arguments.common.output},
-                                 {"vertices", topology.vertex_count()},
+  nlohmann::ordered_json json = {{"vertices", topology.vertex_count()},
                                  {"faces", topology.face_count()},
-                                 {"repairs", repairs},
                                  {"scheme", scheme_json(scheme)},
                                  {"weights", weights_word(options.matrix)},
                                  {"m", options.m},
@@ -71,8 +64,6 @@ nlohmann::ordered_json report_json(const SharpenArguments& arguments, const Topo
     json["intersections_after"] = pairs_json(result.after);
     json["turned_faces"] = result.turned_faces;
   }
-  json["threads"] = thread_count();
-  json["seconds"] = stages.json();
   return json;
 }
 
@@ -80,26 +71,22 @@ nlohmann::ordered_json report_json(const SharpenArguments& arguments, const Topo
 
 int run_sharpen(const SharpenArguments& arguments) {
   const CommonArguments& common = arguments.common;
-  const ThreadLimit limit(common.threads);
-  Stages stages;
-  nlohmann::ordered_json repairs;
-  const Mesh mesh = read_input(common, &repairs);
-  stages.finish("read");
+  Job job("sharpen", common);
+  const Mesh& mesh = job.mesh;
   require_faces(common, mesh);
   const Scheme scheme = scheme_for(common, mesh);
-  const Topology topology(mesh, ProgressBar("connecting", common.quiet).callback());
+  const Topology topology = job.connect();
   ProgressBar bar("sharpening", common.quiet);
   const SharpenResult result = sharpen(topology, scheme, mesh.points, arguments.options, bar.callback());
-  stages.finish("sharpen");
+  job.stages.finish("sharpen");
   const Mesh sharp = with_points(mesh, result.points);
-  write_output(common, sharp);
-  stages.finish("write");
+  job.write(sharp);
   if (!arguments.picture.path.empty()) {
     draw_moved(mesh, sharp, arguments.picture, "sharpened", common.quiet);
-    stages.finish("picture");
+    job.stages.finish("picture");
   }
-  print_table(arguments, topology, scheme, result, stages);
-  write_json(common.report, report_json(arguments, topology, scheme, result, repairs, stages));
+  print_table(arguments, topology, scheme, result, job);
+  job.report(report_json(arguments, topology, scheme, result));
   return 0;
 }
 

@@ -1,9 +1,8 @@
 #include <fmt/format.h>
 
 #include "batten/error.h"
-#include "batten/parallel/parallel.h"
 #include "batten/refine/refinement.h"
-#include "cli/common.h"
+#include "cli/job.h"
 #include "cli/picture.h"
 
 namespace batten::cli {
@@ -71,13 +70,9 @@ void draw_gallery(const TextureArguments& arguments, const Canvas& canvas) {
 
 int run_texture(const TextureArguments& arguments) {
   const CommonArguments& common = arguments.common;
-  const ThreadLimit limit(common.threads);
-  Stages stages;
-  nlohmann::ordered_json repairs;
-  const Mesh mesh = read_input(common, &repairs);
-  stages.finish("read");
-  const Topology topology(mesh, ProgressBar("connecting", common.quiet).callback());
-  stages.finish("topology");
+  Job job("texture", common);
+  const Mesh& mesh = job.mesh;
+  const Topology topology = job.connect();
   Canvas canvas{mesh, topology, scheme_for(common, mesh), {}};
   canvas.options.levels = arguments.levels >= 0 ? arguments.levels : picture_levels(topology);
   canvas.options.flat = arguments.flat;
@@ -87,18 +82,17 @@ int run_texture(const TextureArguments& arguments) {
   }
   const Texture texture = texture_of(arguments);
   const Mesh colored = textured(canvas, texture, common.quiet);
-  stages.finish("texture");
-  write_output(common, colored);
-  stages.finish("write");
+  job.stages.finish("texture");
+  job.write(colored);
   if (!arguments.picture.path.empty()) {
     Subject subject = subject_of(canvas, colored);
     subject.after_caption = name_of(arguments.preset);
     draw(subject, arguments.picture, common.quiet);
-    stages.finish("picture");
+    job.stages.finish("picture");
   }
   if (!arguments.gallery.empty()) {
     draw_gallery(arguments, canvas);
-    stages.finish("gallery");
+    job.stages.finish("gallery");
   }
   const NoiseOptions& noise = texture.noises.front();
   Table table;
@@ -109,24 +103,18 @@ int run_texture(const TextureArguments& arguments) {
                         noise.frequency, count_of(noise.octaves, "octave", "octaves"), noise.gain));
   table.add("coloured", size_text(colored) + (arguments.flat ? ", the mesh as it is" : ", on the limit surface"));
   if (arguments.displace) table.add("displaced", fmt::format("{:.4g} times the noise", canvas.options.displacement));
-  table.add("time", stages.text());
-  table.print(common);
-  write_json(common.report, {{"verb", "texture"},
-                             {"input", common.input},
-                             {"output", common.output},
-                             {"repairs", repairs},
-                             {"scheme", scheme_json(canvas.scheme)},
-                             {"texture", name_of(arguments.preset)},
-                             {"seed", arguments.noise.seed},
-                             {"frequency", noise.frequency},
-                             {"octaves", noise.octaves},
-                             {"gain", noise.gain},
-                             {"levels", arguments.flat ? 0 : canvas.options.levels},
-                             {"flat", arguments.flat},
-                             {"displacement", canvas.options.displacement},
-                             {"vertices", colored.vertex_count()},
-                             {"faces", colored.face_count()},
-                             {"seconds", stages.json()}});
+  job.print(table);
+  job.report({{"scheme", scheme_json(canvas.scheme)},
+              {"texture", name_of(arguments.preset)},
+              {"seed", arguments.noise.seed},
+              {"frequency", noise.frequency},
+              {"octaves", noise.octaves},
+              {"gain", noise.gain},
+              {"levels", arguments.flat ? 0 : canvas.options.levels},
+              {"flat", arguments.flat},
+              {"displacement", canvas.options.displacement},
+              {"vertices", colored.vertex_count()},
+              {"faces", colored.face_count()}});
   return 0;
 }
 
