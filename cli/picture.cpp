@@ -105,7 +105,7 @@ Scene surface_scene(const Subject& subject, Coloring coloring, const Progress& p
   const Values colors = vertex_colors(subject.control);
   Values values(subject.control.points.rows(), 3 + colors.cols());
   values.leftCols(3) = subject.control.points;
-  values.rightCols(colors.cols()) = colors;
+  if (colors.cols() > 0) values.rightCols(colors.cols()) = colors;
   for (int level = 0; level < levels; ++level) {
     Refinement step(topology, scheme, {}, progress);
     values = step.apply(values, progress);
