@@ -1,7 +1,7 @@
 /// \file Adaptive tessellation to a chord tolerance: faces a second, and how many faces the tolerance took.
 #include <benchmark/benchmark.h>
 
-#include "batten/limit/adaptive.h"
+#include "batten/adaptive/adaptive.h"
 #include "batten/mesh/primitives.h"
 #include "batten/parallel/threads.h"
 

@@ -3,7 +3,7 @@
 #include <random>
 
 #include "batten/io/io.h"
-#include "batten/limit/nearest_point.h"
+#include "batten/nearest/nearest_point.h"
 #include "bench/bench.h"
 
 namespace batten::bench {

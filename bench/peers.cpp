@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "batten/io/io.h"
-#include "batten/limit/tessellator.h"
+#include "batten/tessellate/tessellator.h"
 #include "batten/parallel/parallel.h"
 #include "batten/refine/refinement.h"
 #include "bench/bench.h"

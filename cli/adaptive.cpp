@@ -1,4 +1,4 @@
-#include "batten/limit/adaptive.h"
+#include "batten/adaptive/adaptive.h"
 
 #include <fmt/format.h>
 

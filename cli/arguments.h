@@ -10,7 +10,7 @@
 #include "batten/expand/sharpen.h"
 #include "batten/expand/texture.h"
 #include "batten/interpolate/interpolator.h"
-#include "batten/limit/adaptive.h"
+#include "batten/adaptive/adaptive.h"
 #include "batten/mesh/repair.h"
 #include "batten/render/render.h"
 

@@ -7,7 +7,7 @@
 
 #include "batten/error.h"
 #include "batten/io/io.h"
-#include "batten/limit/surface_side.h"
+#include "batten/nearest/surface_side.h"
 #include "batten/parallel/parallel.h"
 #include "cli/distance_summary.h"
 #include "cli/job.h"

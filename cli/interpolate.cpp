@@ -4,7 +4,7 @@
 
 #include "batten/error.h"
 #include "batten/io/io.h"
-#include "batten/limit/surface_mesh.h"
+#include "batten/tessellate/surface_mesh.h"
 #include "batten/parallel/parallel.h"
 #include "cli/job.h"
 #include "cli/picture.h"

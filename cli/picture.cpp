@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "batten/error.h"
-#include "batten/limit/curvature.h"
+#include "batten/surface/curvature.h"
 #include "batten/limit/limit_matrix.h"
 #include "batten/refine/refinement.h"
 #include "cli/common.h"

@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "batten/limit/adaptive.h"
+#include "batten/adaptive/adaptive.h"
 #include "batten/refine/refinement.h"
 #include "conformance/conformance_data.h"
 

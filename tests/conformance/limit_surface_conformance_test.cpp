@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-#include "batten/limit/limit_surface.h"
+#include "batten/surface/limit_surface.h"
 #include "conformance/conformance_data.h"
 #include "conformance/opensubdiv_oracle.h"
 #include "support/shapes.h"

@@ -8,7 +8,7 @@
 #include "batten/error.h"
 #include "batten/expand/morph_surface.h"
 #include "batten/expand/resample.h"
-#include "batten/limit/surface_mesh.h"
+#include "batten/tessellate/surface_mesh.h"
 #include "batten/parallel/parallel.h"
 #include "batten/refine/refinement.h"
 #include "io/io_test_tools.h"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "batten/error.h"
-#include "batten/limit/surface_mesh.h"
+#include "batten/tessellate/surface_mesh.h"
 #include "batten/parallel/parallel.h"
 #include "io/io_test_tools.h"
 #include "support/shapes.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "batten/limit/limit_matrix.h"
-#include "batten/limit/tessellator.h"
+#include "batten/tessellate/tessellator.h"
 #include "batten/refine/refinement.h"
 
 namespace batten::test {

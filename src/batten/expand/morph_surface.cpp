@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "batten/error.h"
-#include "batten/limit/surface_mesh.h"
+#include "batten/tessellate/surface_mesh.h"
 #include "batten/parallel/parallel.h"
 #include "batten/progress.h"
 

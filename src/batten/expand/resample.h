@@ -2,7 +2,7 @@
 #pragma once
 #include <memory>
 
-#include "batten/limit/nearest_point.h"
+#include "batten/nearest/nearest_point.h"
 
 namespace batten {
 

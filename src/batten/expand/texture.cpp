@@ -7,7 +7,7 @@
 
 #include "batten/error.h"
 #include "batten/limit/limit_matrix.h"
-#include "batten/limit/surface_mesh.h"
+#include "batten/tessellate/surface_mesh.h"
 #include "batten/mesh/face_normal.h"
 #include "batten/parallel/parallel.h"
 #include "batten/progress.h"

@@ -3,9 +3,18 @@
 #include <algorithm>
 
 #include "batten/limit/ring_limit.h"
-#include "batten/limit/tile_weights.h"
 
 namespace batten {
+
+/// Which points of a surface.
+enum class TileValue {
+  Refined,  ///< the control points after the steps
+  Limit,    ///< their limit positions
+  TangentU,
+  TangentV
+};
+
+inline bool is_tangent(TileValue value) { return value == TileValue::TangentU || value == TileValue::TangentV; }
 
 /// Calls visit(vertex, weight) for the limit position, or one of two tangents that span the plane on the half-edge's
 /// side, at the half-edge's origin. Quads or triangles only.

@@ -1,0 +1,56 @@
+/// \file Parts of base faces as control points of their own, halved again and again.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "batten/patch/level_values.h"
+#include "batten/patch/pieces.h"
+#include "batten/patch/ring_steps.h"
+
+namespace batten {
+
+/// A square or triangular part of a base face: a face halved towards it `level` times.
+struct CellNet {
+  enum class Kind : std::uint8_t {
+    Patch,   ///< points: 16 (12) of a regular patch, complete
+    Ring,    ///< points: the one-ring, the cell's own corners first
+    Several  ///< no points: a cell of several pieces
+  };
+  Kind kind = Kind::Several;
+  bool turned = false;
+  Index face = 0;
+  Index ring = 0;  ///< kind of ring
+  int level = 0;
+  double u = 0.0;  ///< corner 0, in the base face
+  double v = 0.0;
+  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> points;
+};
+
+/// From base faces to the nets of their parts. Const and safe from several threads.
+class CellNets {
+ public:
+  /// control: V-by-3. O(H). The topology must outlive it.
+  CellNets(const Topology& topology, const Scheme& scheme, ConstValuesRef control);
+
+  const Topology& base() const { return pieces_.topology(0); }
+  bool quads() const { return pieces_.scheme().kind == SchemeKind::CatmullClark; }
+  void root(Index face, CellNet& net) const;
+  /// In a forest's order (adaptive/cell_forest.h).
+  void children(const CellNet& net, std::array<CellNet, 4>& children) const;
+  /// The limit at a corner of a patch.
+  Eigen::Vector3d patch_corner(const CellNet& net, int corner) const;
+
+ private:
+  void find(CellNet& net) const;
+  void halve_patch(const CellNet& net, std::array<CellNet, 4>& children) const;
+  void halve_ring(const CellNet& net, std::array<CellNet, 4>& children) const;
+
+  std::unique_ptr<Refinement> first_;  ///< to the base, where the control mesh itself is not
+  Pieces pieces_;
+  RingSteps steps_;
+  Buffer<Index> kinds_;  ///< of each configuration of the pieces
+  Values base_values_;
+  std::unique_ptr<LevelValues> values_;
+};
+
+}  // namespace batten

@@ -1,0 +1,166 @@
+#include "batten/patch/face_ring.h"
+
+#include <algorithm>
+#include <cstring>
+#include <unordered_map>
+
+#include "batten/refine/vertex_blend.h"
+
+namespace batten {
+
+namespace {
+
+template <typename Number>
+void append(std::string& key, Number number) {
+  char bytes[sizeof(Number)];
+  std::memcpy(bytes, &number, sizeof(Number));
+  key.append(bytes, sizeof(Number));
+}
+
+/// Old numbers to new ones, -1 where there is none: a table, or a hash where few of many are asked for.
+class Renumbering {
+ public:
+  Renumbering(Index all, std::size_t few) : dense_(few > static_cast<std::size_t>(all) / 64) {
+    if (dense_) table_.assign(static_cast<std::size_t>(all), -1);
+  }
+  Index operator[](Index old) const {
+    if (dense_) return table_[old];
+    const auto place = hash_.find(old);
+    return place == hash_.end() ? -1 : place->second;
+  }
+  void set(Index old, Index now) {
+    if (dense_) {
+      table_[old] = now;
+    } else {
+      hash_[old] = now;
+    }
+  }
+
+ private:
+  bool dense_;
+  Buffer<Index> table_;
+  std::unordered_map<Index, Index> hash_;
+};
+
+}  // namespace
+
+void FaceRing::add_face(const Topology& topology, Index half_edge) {
+  const Index face = topology.face(half_edge);
+  if (std::find(faces_.begin(), faces_.end(), face) != faces_.end()) return;
+  faces_.push_back(face);
+  starts_.push_back(half_edge);
+  Index h = half_edge;
+  for (Index c = 0; c < topology.face_size(face); ++c, h = topology.next(h)) {
+    const Index v = topology.origin(h);
+    const auto place = std::find(vertices_.begin(), vertices_.end(), v);
+    append(key_, static_cast<std::int16_t>(place - vertices_.begin()));
+    if (place == vertices_.end()) vertices_.push_back(v);
+  }
+}
+
+/// The faces around the half-edge's origin: counter-clockwise until around, or to the boundary; then clockwise.
+bool FaceRing::add_fan(const Topology& topology, Index half_edge, std::size_t most) {
+  const auto add_edge = [&](Index edge_half_edge, Index far) {
+    const float sharpness = topology.edge_sharpness(topology.edge(edge_half_edge));
+    append(key_, sharpness);
+    if (is_semi_sharp(sharpness)) far_ends_.push_back(far);
+  };
+  Index h = half_edge;
+  while (true) {
+    const Index p = topology.previous(h);
+    add_edge(p, p);
+    h = topology.twin(p);
+    if (h < 0 || h == half_edge) break;
+    add_face(topology, h);
+    if (vertices_.size() > most) return false;
+  }
+  key_.push_back(h == half_edge ? 'c' : 'o');
+  if (h == half_edge) return true;
+  for (Index t = topology.twin(half_edge); t >= 0;) {
+    h = topology.next(t);
+    add_edge(h, topology.next(h));
+    add_face(topology, h);
+    if (vertices_.size() > most) return false;
+    t = topology.twin(h);
+  }
+  key_.push_back('.');
+  return true;
+}
+
+bool FaceRing::gather(const Topology& topology, const Scheme& scheme, Index half_edge, std::size_t most) {
+  vertices_.clear();
+  starts_.clear();
+  faces_.clear();
+  key_.clear();
+  far_ends_.clear();
+  add_face(topology, half_edge);
+  const Index size = topology.face_size(topology.face(half_edge));
+  Index side = half_edge;
+  for (Index c = 0; c < size; ++c, side = topology.next(side)) {
+    append(key_, vertex_sharpness(topology, scheme, topology.origin(side)));
+    if (!add_fan(topology, side, most)) return false;
+  }
+  if (scheme.crease_method == CreaseMethod::Uniform) return true;
+  // Chaikin's rule looks at all edges at both ends of a semi-sharp edge.
+  const Buffer<Index> far_ends = far_ends_;
+  for (const Index far : far_ends) {
+    const auto* const own_end = vertices_.data() + size;
+    if (std::find(static_cast<const Index*>(vertices_.data()), own_end, topology.origin(far)) != own_end) continue;
+    if (!add_fan(topology, far, most)) return false;
+  }
+  return true;
+}
+
+Cutting cut_out(const Topology& from, const Buffer<Index>& half_edges) {
+  TopologyTables tables;
+  Buffer<Index> rows;
+  const auto corners_of = [&](std::size_t f) { return from.face_size(from.face(half_edges[f])); };
+  tables.uniform_face_size = corners_of(0);
+  tables.face_offsets = {0};
+  for (std::size_t f = 0; f < half_edges.size(); ++f) {
+    if (corners_of(f) != tables.uniform_face_size) tables.uniform_face_size = 0;
+    tables.face_offsets.push_back(tables.face_offsets.back() + corners_of(f));
+  }
+  const auto count = static_cast<std::size_t>(tables.face_offsets.back());
+  Renumbering new_half_edge(from.half_edge_count(), count);
+  tables.origins.resize(count);
+  tables.twins.resize(count);
+  tables.faces.resize(count);
+  tables.edges.resize(count);
+  for (std::size_t f = 0; f < half_edges.size(); ++f) {
+    Index old = half_edges[f];
+    for (Index h = tables.face_offsets[f]; h < tables.face_offsets[f + 1]; ++h, old = from.next(old)) {
+      new_half_edge.set(old, h);
+    }
+  }
+  Renumbering new_vertex(from.vertex_count(), count);
+  for (std::size_t f = 0; f < half_edges.size(); ++f) {
+    Index old = half_edges[f];
+    for (Index h = tables.face_offsets[f]; h < tables.face_offsets[f + 1]; ++h, old = from.next(old)) {
+      const Index v = from.origin(old);
+      if (new_vertex[v] < 0) {
+        new_vertex.set(v, static_cast<Index>(rows.size()));
+        rows.push_back(v);
+        // The fan's own start where it is here; otherwise the vertex lies on the cut, and any half-edge does.
+        const Index start = new_half_edge[from.vertex_half_edge(v)];
+        tables.vertex_half_edges.push_back(start >= 0 ? start : h);
+        if (from.has_corners()) tables.vertex_sharpness.push_back(from.vertex_sharpness(v));
+      }
+      const Index old_twin = from.twin(old);
+      tables.origins[h] = new_vertex[v];
+      tables.twins[h] = old_twin < 0 ? -1 : new_half_edge[old_twin];
+      tables.faces[h] = static_cast<Index>(f);
+      if (tables.twins[h] >= 0 && tables.twins[h] < h) {
+        tables.edges[h] = tables.edges[tables.twins[h]];
+      } else {
+        tables.edges[h] = static_cast<Index>(tables.edge_half_edges.size());
+        tables.edge_half_edges.push_back(h);
+        if (from.has_creases()) tables.edge_sharpness.push_back(from.tables().edge_sharpness[from.edge(old)]);
+      }
+    }
+  }
+  tables.vertex_count = static_cast<Index>(rows.size());
+  return {Topology::from_tables(std::move(tables)), std::move(rows)};
+}
+
+}  // namespace batten

@@ -1,0 +1,58 @@
+/// \file How the surroundings of a face become those of its children: small matrices, once for all faces alike.
+#pragma once
+#include <array>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "batten/patch/face_ring.h"
+#include "batten/patch/regular_patch.h"
+
+namespace batten {
+
+/// A few numbers a row.
+struct SparseRows {
+  Buffer<Index> starts{0};  ///< rows + 1
+  Buffer<Index> columns;
+  Buffer<double> weights;
+  Index count() const { return static_cast<Index>(starts.size()) - 1; }
+};
+
+/// Kinds of one-rings and their children. A ring of a face has four children; each is a regular patch or a ring again,
+/// for smooth extraordinary vertices, creases and corners the same one from some level on, so that the kinds are few.
+/// Frames stay parallel: u of a child runs as u of the face; a triangle's middle child is turned by half.
+class RingSteps {
+ public:
+  explicit RingSteps(const Scheme& scheme);
+
+  struct Child {
+    Index kind;          ///< of ring, or kPatch
+    SparseRows rows;     ///< of its ring or patch, on the ring of the face
+    RegularPatch patch;  ///< of a patch: where rows stand; RegularPatch::kMissing ones follow by reflection
+  };
+  static constexpr Index kPatch = -1;
+
+  /// The points of all four children at once: many are the same.
+  struct Step {
+    Index ring_size = 0;
+    SparseRows rows;                        ///< on the ring of the face
+    std::array<Buffer<Index>, 4> children;  ///< rows of each one's ring, or all 16 (12) of its patch
+  };
+
+  /// The kind of a face's surroundings, which `ring` lists; works out its descendants where it is new. Not for faces
+  /// with a regular patch.
+  Index kind_of(const Topology& topology, const FaceRing& ring);
+
+  /// Quads: children at the corners in turn. Triangles: at the corners, then the middle.
+  const Child& child(Index kind, int number) const { return kinds_[kind][number]; }
+  Index kind_count() const { return static_cast<Index>(kinds_.size()); }
+  const Step& step(Index kind) const { return steps_[kind]; }
+
+ private:
+  Scheme scheme_;
+  std::unordered_map<std::string, Index> numbers_;
+  std::vector<std::vector<Child>> kinds_;
+  std::vector<Step> steps_;
+};
+
+}  // namespace batten

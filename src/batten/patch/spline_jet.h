@@ -1,0 +1,33 @@
+/// \file Position and derivatives of regular patches: the uniform bicubic B-spline and Loop's quartic box spline.
+#pragma once
+#include <array>
+
+#include "batten/double4.h"
+#include "batten/patch/regular_patch.h"
+
+namespace batten {
+
+/// Weights of a patch's control points for the value and the derivatives up to the second, in the patch's own (u, v).
+struct JetWeights {
+  std::array<double, 16> value, du, dv, duu, duv, dvv;
+};
+
+/// Sixteen weights, in the order of RegularPatch. (u, v) in the unit square.
+void quad_jet_weights(double u, double v, JetWeights& weights);
+
+/// Twelve weights, in the order of kTriangleLattice. u, v, 1 - u - v >= 0.
+void triangle_jet_weights(double u, double v, JetWeights& weights);
+
+/// Four cubic basis functions with their derivatives.
+struct CubicJet {
+  double value[4], first[4], second[4];
+};
+
+/// Value, du, dv, duu, duv, dvv.
+using PatchJet = std::array<Double4, 6>;
+
+/// Of control points[rows[i]], without weights in between: along u, then along v.
+void quad_jet(double u, double v, const Double4* points, const Index* rows, PatchJet& jet);
+void triangle_jet(double u, double v, const Double4* points, const Index* rows, PatchJet& jet);
+
+}  // namespace batten

@@ -1,0 +1,376 @@
+#include "batten/surface/limit_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+
+#include "batten/error.h"
+#include "batten/patch/level_values.h"
+#include "batten/surface/ring_blocks.h"
+#include "batten/surface/ring_descents.h"
+#include "batten/patch/spline_jet.h"
+#include "batten/limit/vertex_limit.h"
+#include "batten/parallel/parallel.h"
+#include "batten/patch/halving.h"
+#include "batten/patch/ring_steps.h"
+
+namespace batten {
+
+namespace {
+
+/// So many halvings of irregular faces are kept at most, and so many points (of 32 bytes) for each vertex of the base:
+/// all kept halvings where few faces are irregular, one or two where all are.
+constexpr int kMostKeptHalvings = 8;
+constexpr std::size_t kKeptPointsPerVertex = 96;
+
+/// The corner that a place is nearest to, and how many halvings in a row lead to the child there.
+struct Approach {
+  int corner;
+  int halvings;
+};
+Approach approach(bool quads, double u, double v) {
+  int corner = 0;
+  double distance = u + v;
+  if (quads) {
+    static constexpr int kCorners[4] = {0, 1, 3, 2};
+    const bool right = u >= 0.5;
+    const bool up = v >= 0.5;
+    corner = kCorners[(right ? 1 : 0) + (up ? 2 : 0)];
+    distance = std::max(right ? 1.0 - u : u, up ? 1.0 - v : v);
+  } else if (u >= 0.5) {
+    corner = 1;
+    distance = 1.0 - u;
+  } else if (v >= 0.5) {
+    corner = 2;
+    distance = 1.0 - v;
+  }
+  // 2^-halvings is the next power of two from the distance on: the exponent of a double, from 2^-1 on.
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &distance, sizeof(bits));
+  return {corner, std::max(0, 1022 - static_cast<int>(bits >> 52))};
+}
+
+/// (u, v) become those of the child that so many halvings towards a corner lead to. Returns how much faster they run.
+double approach_corner(bool quads, int corner, int halvings, double& u, double& v) {
+  const double factor = std::ldexp(1.0, halvings);
+  const auto approached = [&](double parameter, bool far_side) {
+    return far_side ? 1.0 - factor * (1.0 - parameter) : factor * parameter;
+  };
+  u = approached(u, corner == 1 || (quads && corner == 2));
+  v = approached(v, corner >= 2);
+  return factor;
+}
+
+constexpr auto kOpenPatch = static_cast<std::size_t>(-1);
+
+/// The jet of a patch, whose parameters run `scale` times as fast as the place's.
+void set_jet(const PatchJet& patch, const Double4& origin, double scale, Jet& jet) {
+  const double second = scale * scale;
+  const auto set = [](const Double4& from, Eigen::Vector3d& to) { to << from[0], from[1], from[2]; };
+  set(patch[0] + origin, jet.point);
+  set(patch[1] * scale, jet.du);
+  set(patch[2] * scale, jet.dv);
+  set(patch[3] * second, jet.duu);
+  set(patch[4] * second, jet.duv);
+  set(patch[5] * second, jet.dvv);
+  jet.regular = true;
+}
+
+Buffer<Double4> with_a_spare_column(ConstValuesRef values) {
+  Buffer<Double4> points(static_cast<std::size_t>(values.rows()));
+  parallel_for(values.rows(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (std::ptrdiff_t i = begin; i < end; ++i) points[i] = Double4{values(i, 0), values(i, 1), values(i, 2), 0.0};
+  });
+  return points;
+}
+
+}  // namespace
+
+struct LimitSurface::Parts {
+  const Topology& control_topology;
+  Scheme scheme;
+  bool quads;
+  std::unique_ptr<Refinement> first;
+  Pieces pieces;
+  RingSteps steps;
+  Buffer<Index> kinds;  ///< of each configuration of the pieces
+  std::unique_ptr<RingBlocks> blocks;
+  std::unique_ptr<RingDescents> descents;
+  int kept_halvings = 0;
+  /// Of each piece: where its tree stands in `trees`, or whether points of its patch are missing.
+  Buffer<std::size_t> tree_starts;
+  std::vector<Buffer<Double4>> points;  ///< of each level of the pieces
+  Buffer<Double4> trees;
+
+  Parts(const Topology& topology, const Scheme& scheme_in)
+      : control_topology(topology),
+        scheme(scheme_in),
+        quads(scheme_in.kind == SchemeKind::CatmullClark),
+        first(needs_first_step(topology, scheme_in) ? std::make_unique<Refinement>(topology, scheme_in) : nullptr),
+        pieces(first == nullptr ? topology : first->child(), scheme_in.after_first_step(), kRingPieceLevels,
+               Pieces::Rest::Rings),
+        steps(scheme_in) {
+    FaceRing ring;
+    for (const Pieces::Configuration& configuration : pieces.configurations()) {
+      ring.gather(configuration.topology, pieces.scheme(), 0);
+      kinds.push_back(steps.kind_of(configuration.topology, ring));
+    }
+    blocks = std::make_unique<RingBlocks>(steps, kMostKeptHalvings);
+    descents = std::make_unique<RingDescents>(steps);
+    lay_out_trees();
+  }
+
+  const Topology& base() const { return pieces.topology(0); }
+  std::size_t patch_size() const { return quads ? kQuadPatchSize : kTrianglePatchSize; }
+
+  void lay_out_trees();
+  void set_control(ConstValuesRef control);
+  void check(const SurfacePlace& place) const { require_place(base(), place); }
+  const Piece& locate(const SurfacePlace& place, double& u, double& v) const;
+  void set(const SurfacePlace& place, DescentScratch& scratch, Jet& jet) const;
+  void patch_jet(double u, double v, const Double4* from, const Index* rows, PatchJet& jet) const {
+    if (quads) {
+      quad_jet(u, v, from, rows, jet);
+    } else {
+      triangle_jet(u, v, from, rows, jet);
+    }
+  }
+  void set_on_open_patch(const Piece& piece, double u, double v, double scale, Jet& jet) const;
+  void set_on_ring(const Piece& piece, double u, double v, double scale, DescentScratch& scratch, Jet& jet) const;
+  void set_at_vertex(const Piece& piece, double u, double v, Jet& jet) const;
+  std::size_t number_of(const Piece& piece) const { return static_cast<std::size_t>(&piece - pieces.begin(0)); }
+};
+
+/// The deepest trees that have their place.
+void LimitSurface::Parts::lay_out_trees() {
+  const Piece* begin = pieces.begin(0);
+  const Piece* end = base().face_count() == 0 ? begin : pieces.end(base().face_count() - 1);
+  const auto most = kKeptPointsPerVertex * static_cast<std::size_t>(base().vertex_count());
+  Buffer<std::size_t> pieces_of_kind(static_cast<std::size_t>(steps.kind_count()), 0);
+  for (const Piece* piece = begin; piece != end; ++piece) {
+    if (piece->kind != Piece::Kind::Patch) ++pieces_of_kind[kinds[piece->configuration]];
+  }
+  for (int depth = 1; depth <= kMostKeptHalvings; ++depth) {
+    std::size_t total = 0;
+    for (Index kind = 0; kind < steps.kind_count(); ++kind) {
+      total += pieces_of_kind[kind] * blocks->node(blocks->node_of(kind, depth)).size;
+    }
+    if (total > most) break;
+    kept_halvings = depth;
+  }
+  tree_starts.assign(static_cast<std::size_t>(end - begin), 0);
+  std::size_t size = 0;
+  for (const Piece* piece = begin; piece != end; ++piece) {
+    tree_starts[piece - begin] = size;
+    if (piece->kind == Piece::Kind::Patch) {
+      const Index* rows = pieces.rows(*piece);
+      if (std::find(rows, rows + patch_size(), RegularPatch::kMissing) != rows + patch_size()) {
+        tree_starts[piece - begin] = kOpenPatch;
+      }
+    } else if (kept_halvings > 0) {
+      size += blocks->node(blocks->node_of(kinds[piece->configuration], kept_halvings)).size;
+    }
+  }
+  trees.resize(size);
+}
+
+void LimitSurface::Parts::set_control(ConstValuesRef control) {
+  require_vertex_rows(control_topology, control);
+  if (control.cols() != 3) throw Error(ErrorCode::BadShape, "a limit surface has points of three columns");
+  const Values refined = first == nullptr ? Values() : first->apply(control);
+  const LevelValues values = first == nullptr ? LevelValues(pieces, control) : LevelValues(pieces, refined);
+  points.clear();
+  for (int level = 0; level <= pieces.region_count(); ++level) points.push_back(with_a_spare_column(values.at(level)));
+  if (kept_halvings == 0) return;
+  parallel_for(
+      base().face_count(),
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        Buffer<Double4> scratch;
+        for (auto f = static_cast<Index>(begin); f < end; ++f) {
+          for (const Piece* piece = pieces.begin(f); piece != pieces.end(f); ++piece) {
+            if (piece->kind == Piece::Kind::Patch) continue;
+            blocks->fill(blocks->node_of(kinds[piece->configuration], kept_halvings), points[piece->level].data(),
+                         pieces.rows(*piece), Double4{}, &trees[tree_starts[number_of(*piece)]], scratch);
+          }
+        }
+      },
+      256);
+}
+
+/// The piece that a place lies in; (u, v) become its own parameters.
+const Piece& LimitSurface::Parts::locate(const SurfacePlace& place, double& u, double& v) const {
+  const Piece* piece = pieces.begin(place.face);
+  u = place.u;
+  v = place.v;
+  if (piece->level == 0) return *piece;
+  const double steps_per_side = 1 << kRingPieceLevels;
+  const double x = place.u * steps_per_side;
+  const double y = place.v * steps_per_side;
+  // Rounding on a line between triangles may leave a place outside all of them: the nearest one will do.
+  const Piece* nearest = piece;
+  double least_outside = std::numeric_limits<double>::infinity();
+  for (; piece != pieces.end(place.face); ++piece) {
+    const double along = (piece->turned ? piece->x - x : x - piece->x) / piece->size;
+    const double across = (piece->turned ? piece->y - y : y - piece->y) / piece->size;
+    const double beyond = quads ? std::max(along, across) - 1.0 : along + across - 1.0;
+    const double outside = std::max({-along, -across, beyond, 0.0});
+    if (outside >= least_outside) continue;
+    least_outside = outside;
+    nearest = piece;
+    u = along;
+    v = across;
+    if (outside == 0.0) break;
+  }
+  u = std::clamp(u, 0.0, 1.0);
+  v = std::clamp(v, 0.0, quads ? 1.0 : 1.0 - u);
+  return *nearest;
+}
+
+/// Of a patch at a boundary or crease, whose other side follows by reflection.
+void LimitSurface::Parts::set_on_open_patch(const Piece& piece, double u, double v, double scale, Jet& jet) const {
+  const Double4* from = points[piece.level].data();
+  const Index* rows = pieces.rows(piece);
+  std::array<Double4, 16> patch{};
+  std::array<Index, 16> order{};
+  for (std::size_t i = 0; i < patch_size(); ++i) {
+    order[i] = static_cast<Index>(i);
+    if (rows[i] != RegularPatch::kMissing) patch[i] = from[rows[i]];
+  }
+  auto* numbers = reinterpret_cast<double*>(patch.data());
+  if (quads) {
+    complete_quad_patch(rows, numbers, 4);
+  } else {
+    complete_triangle_patch(rows, numbers, 4);
+  }
+  PatchJet patch_sums;
+  patch_jet(u, v, patch.data(), order.data(), patch_sums);
+  set_jet(patch_sums, Double4{}, scale, jet);
+}
+
+/// Halves the face until it is regular: down its tree, then as deep as it takes.
+void LimitSurface::Parts::set_on_ring(const Piece& piece, double u, double v, double scale, DescentScratch& scratch,
+                                      Jet& jet) const {
+  const double first_u = u;
+  const double first_v = v;
+  Descent at{kinds[piece.configuration], points[piece.level].data(), pieces.rows(piece), Double4{}};
+  int halvings = 0;
+  if (kept_halvings > 0) {
+    const Double4* tree = trees.data() + tree_starts[number_of(piece)];
+    std::int32_t node = blocks->node_of(at.kind, kept_halvings);
+    const Approach near = approach(quads, u, v);
+    const std::span<const RingBlocks::Jump> jumps = blocks->jumps(node, near.corner);
+    halvings = std::min(near.halvings, static_cast<int>(jumps.size()));
+    if (halvings > 0) {
+      const RingBlocks::Jump& jump = jumps[halvings - 1];
+      scale *= approach_corner(quads, near.corner, halvings, u, v);
+      at = {jump.child.kind, tree + jump.block + 1, jump.child.points, tree[jump.block]};
+      tree += jump.tree;
+      node = jump.child.node;
+    }
+    while (node >= 0) {
+      const Halving step = halve(quads, u, v);
+      ++halvings;
+      scale *= step.factor;
+      const RingBlocks::Node::Child& child = blocks->node(node).children[step.child];
+      at = {child.kind, tree + 1, child.points, tree[0]};
+      tree += child.offset;
+      node = child.node;
+    }
+  }
+  while (at.kind != RingSteps::kPatch && halvings < kHalvingsToVertex) {
+    const Approach near = approach(quads, u, v);
+    const int to_corner = std::min(near.halvings, descents->most_to_corner(at.kind, near.corner));
+    scale *= approach_corner(quads, near.corner, to_corner, u, v);
+    const Halving step = halve(quads, u, v);
+    scale *= step.factor;
+    halvings += to_corner + 1;
+    descents->descend(near.corner, to_corner, step.child, scratch, at);
+  }
+  if (at.kind != RingSteps::kPatch) return set_at_vertex(piece, first_u, first_v, jet);
+  PatchJet sums;
+  patch_jet(u, v, at.points, at.rows, sums);
+  set_jet(sums, at.origin, scale, jet);
+}
+
+/// At the corner of the piece that the place is.
+void LimitSurface::Parts::set_at_vertex(const Piece& piece, double u, double v, Jet& jet) const {
+  const Topology& topology = pieces.topology(piece.level);
+  Index half_edge = piece.half_edge;
+  const Index corner = nearest_corner(quads, u, v);
+  for (Index c = 0; c < corner; ++c) half_edge = topology.next(half_edge);
+  const auto sum = [&](TileValue value) {
+    Double4 total{};
+    visit_vertex_limit(topology, pieces.scheme(), value, half_edge,
+                       [&](Index vertex, double weight) { total += weight * points[piece.level][vertex]; });
+    return Eigen::Vector3d(total[0], total[1], total[2]);
+  };
+  jet.point = sum(TileValue::Limit);
+  jet.du = sum(TileValue::TangentU);
+  jet.dv = sum(TileValue::TangentV);
+  jet.duu = jet.duv = jet.dvv = Eigen::Vector3d::Zero();
+  jet.regular = false;
+}
+
+void LimitSurface::Parts::set(const SurfacePlace& place, DescentScratch& scratch, Jet& jet) const {
+  double u = 0.0;
+  double v = 0.0;
+  const Piece& piece = locate(place, u, v);
+  const double size = static_cast<double>(1 << kRingPieceLevels) / piece.size;
+  const double scale = piece.turned ? -size : size;
+  if (piece.kind != Piece::Kind::Patch) return set_on_ring(piece, u, v, scale, scratch, jet);
+  if (tree_starts[number_of(piece)] == kOpenPatch) return set_on_open_patch(piece, u, v, scale, jet);
+  PatchJet sums;
+  patch_jet(u, v, points[piece.level].data(), pieces.rows(piece), sums);
+  set_jet(sums, Double4{}, scale, jet);
+}
+
+void require_place(const Topology& base, const SurfacePlace& place) {
+  const bool quads = base.uniform_face_size() != 3;
+  const double most = quads ? 1.0 : 1.0 - place.v;
+  const bool inside = place.u >= 0.0 && place.v >= 0.0 && place.u <= most && place.v <= 1.0;
+  if (inside && place.face >= 0 && place.face < base.face_count()) return;
+  if (place.face < 0 || place.face >= base.face_count()) {
+    throw Error(ErrorCode::IndexOutOfRange, "face " + std::to_string(place.face) + " does not exist; the base has " +
+                                                std::to_string(base.face_count()) + " faces");
+  }
+  throw Error(ErrorCode::BadArgument,
+              "(u, v) = (" + std::to_string(place.u) + ", " + std::to_string(place.v) + ") is not in the face");
+}
+
+LimitSurface::LimitSurface(const Topology& topology, const Scheme& scheme, ConstValuesRef control) {
+  parts_ = std::make_unique<Parts>(topology, scheme);
+  parts_->set_control(control);
+}
+
+LimitSurface::~LimitSurface() = default;
+LimitSurface::LimitSurface(LimitSurface&&) noexcept = default;
+
+const Topology& LimitSurface::base() const { return parts_->base(); }
+void LimitSurface::set_control(ConstValuesRef control) { parts_->set_control(control); }
+
+Jet LimitSurface::jet(const SurfacePlace& place) const {
+  parts_->check(place);
+  DescentScratch scratch;
+  Jet result;
+  parts_->set(place, scratch, result);
+  return result;
+}
+
+void LimitSurface::jets(std::span<const SurfacePlace> places, std::span<Jet> jets) const {
+  if (places.size() != jets.size()) {
+    throw Error(ErrorCode::BadShape,
+                std::to_string(places.size()) + " places ask for as many jets, not " + std::to_string(jets.size()));
+  }
+  for (const SurfacePlace& place : places) parts_->check(place);
+  parallel_for(
+      static_cast<std::ptrdiff_t>(places.size()),
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        DescentScratch scratch;
+        for (std::ptrdiff_t i = begin; i < end; ++i) parts_->set(places[i], scratch, jets[i]);
+      },
+      256);
+}
+
+}  // namespace batten

@@ -1,0 +1,74 @@
+/// \file Irregular faces halved beforehand: the control points of their patches, ready for evaluation.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "batten/patch/spline_jet.h"
+#include "batten/patch/ring_steps.h"
+
+namespace batten {
+
+/// Control points are kept with an origin near them, so that small rings keep their digits: a block is the origin, then
+/// the points of a step (patch/ring_steps.h) as seen from there.
+///
+/// The tree of a ring `depth` halvings deep is the block of its children, then the trees of those of its children that
+/// are rings, one halving less deep.
+class RingBlocks {
+ public:
+  /// The steps must outlive it.
+  RingBlocks(const RingSteps& steps, int most_depth);
+
+  /// A ring from which a tree of some depth starts.
+  struct Node {
+    struct Child {
+      std::int32_t node;     ///< of a ring, or kPatch; kTreeEnds where the child's own tree is not kept
+      std::int32_t kind;     ///< of ring, or RingSteps::kPatch
+      std::uint32_t offset;  ///< of its tree in this one
+      const Index* points;   ///< of its ring or patch, in this tree's block
+    };
+    std::array<Child, 4> children;
+    std::size_t size;  ///< of the tree
+  };
+  /// Several halvings to the child at the same corner.
+  struct Jump {
+    Node::Child child;    ///< the last one
+    std::uint32_t block;  ///< that its points are in, from the start of the first node's tree
+    std::uint32_t tree;   ///< where its own tree starts
+  };
+  static constexpr std::int32_t kPatch = -1;
+  static constexpr std::int32_t kTreeEnds = -2;
+
+  /// depth >= 1.
+  std::int32_t node_of(Index kind, int depth) const { return (depth - 1) * steps_.kind_count() + kind; }
+  const Node& node(std::int32_t number) const { return nodes_[number]; }
+
+  /// One jump for each number of halvings to rings, 1 and more.
+  std::span<const Jump> jumps(std::int32_t node, int corner) const { return jumps_[4 * node + corner]; }
+
+  /// Fills the tree of a ring of control points rows[i] of `points`, seen from `origin`.
+  void fill(std::int32_t node, const Double4* points, const Index* rows, Double4 origin, Double4* tree,
+            Buffer<Double4>& scratch) const;
+
+ private:
+  /// The ring as seen from its first point.
+  void centre(Index kind, const Double4* points, const Index* rows, Buffer<Double4>& ring) const;
+  /// One point of a step on a ring.
+  static Double4 combine(const SparseRows& rows, Index row, const Double4* ring) {
+    Double4 even{};
+    Double4 odd{};
+    Index e = rows.starts[row];
+    const Index end = rows.starts[row + 1];
+    for (; e + 1 < end; e += 2) {
+      even += rows.weights[e] * ring[rows.columns[e]];
+      odd += rows.weights[e + 1] * ring[rows.columns[e + 1]];
+    }
+    if (e < end) even += rows.weights[e] * ring[rows.columns[e]];
+    return even + odd;
+  }
+
+  const RingSteps& steps_;
+  Buffer<Node> nodes_;
+  std::vector<std::vector<Jump>> jumps_;  ///< of each node, four
+};
+
+}  // namespace batten

@@ -1,0 +1,57 @@
+/// \file From the ring of an irregular face down to a child, or straight to one that is several halvings away.
+#pragma once
+#include <array>
+#include <vector>
+
+#include "batten/patch/spline_jet.h"
+#include "batten/patch/ring_steps.h"
+
+namespace batten {
+
+/// A matrix of few numbers, four rows at a time: each column that one of them has stands once for all four.
+struct RowsByFour {
+  Buffer<Index> starts{0};  ///< a block of four rows each, and the end
+  Buffer<Index> columns;
+  Buffer<double> weights;  ///< four a column
+
+  RowsByFour() = default;
+  /// Of these rows of a matrix; those missing from the last four are zero.
+  RowsByFour(const Values& matrix, const Buffer<Index>& rows);
+  /// To as many rows as there are, rounded up to four.
+  void apply(const Double4* from, Buffer<Double4>& to) const;
+};
+
+/// A ring or patch on the way down: its control points are points[rows[i]], seen from the origin.
+struct Descent {
+  Index kind;
+  const Double4* points;
+  const Index* rows;
+  Double4 origin;
+};
+
+/// What a descent may use, one object for each thread.
+struct DescentScratch {
+  Buffer<Double4> ring;
+  Buffer<Double4> centred;
+  Buffer<Index> order;  ///< 0, 1, 2, ...: the rows of a ring that stands in a row
+};
+
+/// The matrices of RingSteps and, where a corner's child is a ring of the same kind, of several halvings at once.
+class RingDescents {
+ public:
+  /// The steps must outlive it. O(size of the steps).
+  explicit RingDescents(const RingSteps& steps);
+
+  /// So many halvings towards a corner can be had with the one that follows.
+  int most_to_corner(Index kind, int corner) const { return static_cast<int>(deeper_[kind][corner].size()); }
+  /// Halvings towards a corner, no more than that, then one to a child.
+  void descend(int corner, int halvings, int child, DescentScratch& scratch, Descent& at) const;
+
+ private:
+  using Children = std::array<RowsByFour, 4>;
+  const RingSteps& steps_;
+  std::vector<Children> children_;                            ///< of each kind
+  std::vector<std::array<std::vector<Children>, 4>> deeper_;  ///< of each kind and corner: after one halving, two, ...
+};
+
+}  // namespace batten

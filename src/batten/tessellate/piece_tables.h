@@ -1,0 +1,56 @@
+/// \file The weights of a piece's points: for regular patches of every size, and for every shared configuration.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "batten/tessellate/tile_weights.h"
+#include "batten/patch/pieces.h"
+
+namespace batten {
+
+/// Points are summed in registers, so many at a time; rows of weights and planes are padded to multiples.
+inline constexpr std::ptrdiff_t kGridLanes = 32;
+constexpr std::ptrdiff_t padded(std::ptrdiff_t points) { return (points + kGridLanes - 1) / kGridLanes * kGridLanes; }
+
+/// How one kind of value follows from control points, for patches of every size and for every configuration.
+template <typename Scalar>
+class PieceTables {
+ public:
+  PieceTables(const Pieces& pieces, TileValue value);
+
+  TileValue value() const { return value_; }
+
+  /// Dense: weight k of point p at k * stride + p in u, points row by row. Otherwise a tensor product: weight j of
+  /// point i of a curve at j * stride + i, along u and along v.
+  struct Patch {
+    bool dense;
+    std::ptrdiff_t stride;
+    Buffer<Scalar> u;
+    Buffer<Scalar> v;
+  };
+  const Patch& patch(Index size) const;
+
+  /// Weight k of point p at k * stride + p; points row by row, of triangles the rows that fit.
+  struct Ring {
+    std::ptrdiff_t stride;
+    Index vertices;
+    Buffer<Scalar> weights;
+  };
+  const Ring& ring(std::int32_t configuration) const { return rings_[configuration]; }
+
+ private:
+  template <typename Other>
+  friend class PieceTables;
+  using Patches = std::shared_ptr<const std::vector<Patch>>;
+
+  /// Of pieces without configurations.
+  PieceTables(TileValue value, Patches patches) : value_(value), patches_(std::move(patches)) {}
+  static Patches patches_of(SchemeKind kind, int levels, TileValue value);
+  static Ring ring_of(const Pieces::Configuration& shared, const Scheme& scheme, const PieceTables<double>& tables);
+
+  TileValue value_;
+  Patches patches_;  ///< of 2^0, 2^1, ... steps a side
+  std::vector<Ring> rings_;
+};
+
+}  // namespace batten
