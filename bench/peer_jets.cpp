@@ -5,9 +5,9 @@
 #include <ctime>
 #include <random>
 
-#include "batten/surface/limit_surface.h"
 #include "batten/parallel/parallel.h"
 #include "batten/patch/regular_patch.h"
+#include "batten/surface/limit_surface.h"
 #include "bench/bench.h"
 #include "bench/peers.h"
 #include "tests/conformance/opensubdiv_oracle.h"

@@ -8,9 +8,9 @@
 #include <fstream>
 
 #include "batten/io/io.h"
-#include "batten/tessellate/tessellator.h"
 #include "batten/parallel/parallel.h"
 #include "batten/refine/refinement.h"
+#include "batten/tessellate/tessellator.h"
 #include "bench/bench.h"
 
 namespace batten::bench {

@@ -5,12 +5,12 @@
 #include <string>
 #include <utility>
 
+#include "batten/adaptive/adaptive.h"
 #include "batten/expand/denoise.h"
 #include "batten/expand/morph.h"
 #include "batten/expand/sharpen.h"
 #include "batten/expand/texture.h"
 #include "batten/interpolate/interpolator.h"
-#include "batten/adaptive/adaptive.h"
 #include "batten/mesh/repair.h"
 #include "batten/render/render.h"
 

@@ -4,8 +4,8 @@
 
 #include "batten/error.h"
 #include "batten/io/io.h"
-#include "batten/tessellate/surface_mesh.h"
 #include "batten/parallel/parallel.h"
+#include "batten/tessellate/surface_mesh.h"
 #include "cli/job.h"
 #include "cli/picture.h"
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "batten/error.h"
-#include "batten/surface/curvature.h"
 #include "batten/limit/limit_matrix.h"
 #include "batten/refine/refinement.h"
+#include "batten/surface/curvature.h"
 #include "cli/common.h"
 #include "cli/vertex_fields.h"
 #ifdef BATTEN_WITH_RENDER

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "batten/tessellate/surface_mesh.h"
 #include "batten/refine/refined_mesh.h"
+#include "batten/tessellate/surface_mesh.h"
 #include "cli/job.h"
 #include "cli/picture.h"
 

@@ -3,6 +3,7 @@
 
 #include <thread>
 
+#include "batten/adaptive/adaptive.h"
 #include "batten/expand/bands.h"
 #include "batten/expand/denoise.h"
 #include "batten/expand/mesh_series.h"
@@ -11,13 +12,12 @@
 #include "batten/expand/sharpen.h"
 #include "batten/expand/texture.h"
 #include "batten/interpolate/interpolator.h"
-#include "batten/adaptive/adaptive.h"
 #include "batten/limit/limit_matrix.h"
-#include "batten/nearest/nearest_point.h"
 #include "batten/mesh/check.h"
 #include "batten/mesh/discrete_curvature.h"
 #include "batten/mesh/primitives.h"
 #include "batten/mesh/repair.h"
+#include "batten/nearest/nearest_point.h"
 #include "batten/parallel/parallel.h"
 #include "batten/refine/refinement.h"
 #include "io/io_test_tools.h"

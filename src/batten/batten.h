@@ -1,5 +1,6 @@
 /// \file Everything of the library but pictures (render/render.h).
 #pragma once
+#include "batten/adaptive/adaptive.h"
 #include "batten/error.h"
 #include "batten/expand/bands.h"
 #include "batten/expand/color_ramp.h"
@@ -17,15 +18,7 @@
 #include "batten/interpolate/interpolator.h"
 #include "batten/io/animation.h"
 #include "batten/io/io.h"
-#include "batten/adaptive/adaptive.h"
-#include "batten/surface/curvature.h"
 #include "batten/limit/limit_matrix.h"
-#include "batten/surface/limit_surface.h"
-#include "batten/nearest/nearest_point.h"
-#include "batten/tessellate/surface_mesh.h"
-#include "batten/nearest/surface_side.h"
-#include "batten/surface/surface_weights.h"
-#include "batten/tessellate/tessellator.h"
 #include "batten/mesh/check.h"
 #include "batten/mesh/discrete_curvature.h"
 #include "batten/mesh/mesh.h"
@@ -35,10 +28,17 @@
 #include "batten/mesh/summary.h"
 #include "batten/mesh/topology.h"
 #include "batten/mesh/triangulate.h"
+#include "batten/nearest/nearest_point.h"
+#include "batten/nearest/surface_side.h"
 #include "batten/parallel/threads.h"
 #include "batten/refine/refined_mesh.h"
 #include "batten/refine/refinement.h"
 #include "batten/scheme/scheme.h"
+#include "batten/surface/curvature.h"
+#include "batten/surface/limit_surface.h"
+#include "batten/surface/surface_weights.h"
+#include "batten/tessellate/surface_mesh.h"
+#include "batten/tessellate/tessellator.h"
 
 /// Subdivision surfaces through data.
 namespace batten {}

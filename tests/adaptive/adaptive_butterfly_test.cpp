@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "batten/error.h"
 #include "batten/adaptive/adaptive.h"
-#include "batten/tessellate/tessellator.h"
+#include "batten/error.h"
 #include "batten/mesh/primitives.h"
 #include "batten/mesh/triangulate.h"
+#include "batten/tessellate/tessellator.h"
 #include "support/shapes.h"
 
 namespace batten {

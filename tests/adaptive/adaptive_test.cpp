@@ -7,11 +7,11 @@
 
 #include "batten/error.h"
 #include "batten/limit/limit_matrix.h"
-#include "batten/nearest/nearest_point.h"
-#include "batten/tessellate/tessellator.h"
 #include "batten/mesh/triangulate.h"
+#include "batten/nearest/nearest_point.h"
 #include "batten/parallel/parallel.h"
 #include "batten/refine/refinement.h"
+#include "batten/tessellate/tessellator.h"
 #include "support/shapes.h"
 
 namespace batten {

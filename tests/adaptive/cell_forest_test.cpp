@@ -5,8 +5,8 @@
 #include <random>
 #include <set>
 
-#include "batten/error.h"
 #include "batten/adaptive/cell_faces.h"
+#include "batten/error.h"
 #include "batten/refine/refinement.h"
 #include "support/shapes.h"
 

@@ -8,9 +8,9 @@
 #include "batten/error.h"
 #include "batten/expand/morph_surface.h"
 #include "batten/expand/resample.h"
-#include "batten/tessellate/surface_mesh.h"
 #include "batten/parallel/parallel.h"
 #include "batten/refine/refinement.h"
+#include "batten/tessellate/surface_mesh.h"
 #include "io/io_test_tools.h"
 #include "support/shapes.h"
 

@@ -8,9 +8,9 @@
 #include "batten/expand/solid_noise.h"
 #include "batten/interpolate/interpolator.h"
 #include "batten/limit/limit_matrix.h"
-#include "batten/tessellate/surface_mesh.h"
 #include "batten/parallel/parallel.h"
 #include "batten/refine/refinement.h"
+#include "batten/tessellate/surface_mesh.h"
 #include "io/io_test_tools.h"
 #include "support/shapes.h"
 

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "batten/error.h"
-#include "batten/tessellate/surface_mesh.h"
 #include "batten/parallel/parallel.h"
+#include "batten/tessellate/surface_mesh.h"
 #include "io/io_test_tools.h"
 #include "support/shapes.h"
 

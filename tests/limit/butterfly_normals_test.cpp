@@ -7,10 +7,10 @@
 #include "batten/error.h"
 #include "batten/limit/butterfly_tangents.h"
 #include "batten/limit/limit_matrix.h"
-#include "batten/surface/limit_surface.h"
 #include "batten/mesh/primitives.h"
 #include "batten/mesh/triangulate.h"
 #include "batten/refine/refinement.h"
+#include "batten/surface/limit_surface.h"
 #include "support/shapes.h"
 
 namespace batten {

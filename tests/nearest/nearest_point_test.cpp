@@ -9,8 +9,8 @@
 #include "batten/error.h"
 #include "batten/io/io.h"
 #include "batten/limit/limit_matrix.h"
-#include "batten/tessellate/tessellator.h"
 #include "batten/parallel/parallel.h"
+#include "batten/tessellate/tessellator.h"
 #include "support/shapes.h"
 
 namespace batten {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "batten/limit/limit_matrix.h"
-#include "batten/tessellate/tessellator.h"
 #include "batten/refine/refinement.h"
+#include "batten/tessellate/tessellator.h"
 
 namespace batten::test {
 

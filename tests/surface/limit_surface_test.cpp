@@ -6,9 +6,9 @@
 
 #include "batten/error.h"
 #include "batten/limit/limit_matrix.h"
-#include "batten/tessellate/tessellator.h"
 #include "batten/refine/refinement.h"
 #include "batten/scheme/masks.h"
+#include "batten/tessellate/tessellator.h"
 #include "support/shapes.h"
 
 namespace batten {

@@ -9,13 +9,13 @@
 #include <string>
 #include <utility>
 
-#include "batten/error.h"
 #include "batten/adaptive/butterfly_points.h"
+#include "batten/adaptive/cell_faces.h"
 #include "batten/adaptive/chord_cells.h"
 #include "batten/adaptive/corner_normals.h"
+#include "batten/error.h"
 #include "batten/parallel/parallel.h"
 #include "batten/progress.h"
-#include "batten/adaptive/cell_faces.h"
 #include "batten/refine/refinement.h"
 
 namespace batten {

@@ -8,8 +8,8 @@
 #include <functional>
 #include <span>
 
-#include "batten/surface/limit_surface.h"
 #include "batten/mesh/mesh.h"
+#include "batten/surface/limit_surface.h"
 
 namespace batten {
 

@@ -6,8 +6,8 @@
 
 #include "batten/error.h"
 #include "batten/limit/butterfly_fan.h"
-#include "batten/tessellate/lattice_walk.h"
 #include "batten/refine/child_topology.h"
+#include "batten/tessellate/lattice_walk.h"
 
 namespace batten {
 
@@ -41,7 +41,7 @@ LatticePlace coarsest(LatticePlace place) {
 }  // namespace
 
 struct ButterflyPoints::Parts {
-  const Topology& base;
+  Topology base;
   Scheme scheme;
   Values control;
   ButterflyMasks masks;

@@ -12,7 +12,7 @@ namespace batten {
 
 /// A point of level l is made of some ten points of level l - 1, and those of others, down to the control points; what
 /// has been made is kept. So points cost O(1) each where many are asked for near each other: some 200 bytes and about a
-/// microsecond. Not safe to share between threads. The topology must outlive it.
+/// microsecond. Not safe to share between threads.
 class ButterflyPoints {
  public:
   /// Places lie this many levels deep at most.

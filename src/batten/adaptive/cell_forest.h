@@ -75,7 +75,7 @@ class CellForest {
   void add_children(Index cell, const std::array<Index, 4>& middles, Index centre);
   Index middle_vertex(Index cell, int side);
 
-  const Topology& base_;
+  Topology base_;
   int corners_;
   Buffer<std::uint8_t> left_out_;
   Buffer<Cell> cells_;

@@ -29,7 +29,7 @@ struct CellNet {
 /// From base faces to the nets of their parts. Const and safe from several threads.
 class CellNets {
  public:
-  /// control: V-by-3. O(H). The topology must outlive it.
+  /// control: V-by-3. O(H).
   CellNets(const Topology& topology, const Scheme& scheme, ConstValuesRef control);
 
   const Topology& base() const { return pieces_.topology(0); }

@@ -5,8 +5,8 @@
 #include <atomic>
 #include <cmath>
 
-#include "batten/error.h"
 #include "batten/adaptive/chord_bound.h"
+#include "batten/error.h"
 #include "batten/parallel/parallel.h"
 
 namespace batten {

@@ -1,8 +1,8 @@
 /// \file Which cells of a forest a chord tolerance cuts.
 #pragma once
+#include "batten/adaptive/cell_forest.h"
 #include "batten/adaptive/cell_nets.h"
 #include "batten/surface/limit_surface.h"
-#include "batten/adaptive/cell_forest.h"
 
 namespace batten {
 

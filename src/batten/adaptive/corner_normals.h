@@ -2,8 +2,8 @@
 #pragma once
 #include <functional>
 
-#include "batten/surface/limit_surface.h"
 #include "batten/adaptive/cell_faces.h"
+#include "batten/surface/limit_surface.h"
 
 namespace batten {
 

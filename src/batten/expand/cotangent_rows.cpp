@@ -132,7 +132,7 @@ class CotangentBuilder {
   bool is_kept(Index v) const { return !kept_.empty() && kept_[v] != 0; }
 
   const LimitMatrix& matrix_;
-  const Topology& topology_;
+  Topology topology_;
   ConstValuesRef points_;
   const Buffer<std::uint8_t>& kept_;
   FaceTriangles triangles_;

@@ -74,7 +74,7 @@ const Scheme& require_approximating(const Scheme& scheme) {
 }  // namespace
 
 struct MeshSeries::Parts {
-  const Topology& topology;
+  Topology topology;
   Buffer<std::uint8_t> kept;
   LimitMatrix matrix;
   std::unique_ptr<TiledPolynomial> tiles;

@@ -27,7 +27,7 @@ struct SeriesOptions {
 };
 
 /// Built once for a connectivity, applied to any values, N-by-k. Crease and boundary curves are smoothed along
-/// themselves only; corners and vertices without a face keep their values. The topology must outlive it. Safe to share
+/// themselves only; corners and vertices without a face keep their values. Safe to share
 /// between threads; the result does not depend on their number.
 /// Build: O(H), 45 to 70 bytes a vertex (Limit), 90 (Cotangent). One application of A: O(H).
 class MeshSeries {

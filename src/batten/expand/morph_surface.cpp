@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "batten/error.h"
-#include "batten/tessellate/surface_mesh.h"
 #include "batten/parallel/parallel.h"
 #include "batten/progress.h"
+#include "batten/tessellate/surface_mesh.h"
 
 namespace batten {
 namespace {

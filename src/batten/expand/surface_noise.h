@@ -22,8 +22,8 @@ struct NoiseOptions {
   Eigen::Vector3d stretch = Eigen::Vector3d::Ones();  ///< features are so many times as long along x, y and z
 };
 
-/// Built for a connectivity and a number of refinements; gives any number of noises at once. The topology must outlive
-/// it. Memory: the topologies of all levels, 4/3 of the finest.
+/// Built for a connectivity and a number of refinements; gives any number of noises at once. Memory: the topologies of
+/// all levels, 4/3 of the finest.
 ///
 /// The random number of an octave at a vertex is solid_noise() at its place on the surface. It is sampled at the
 /// coarsest level whose edges are short enough for the octave's features, else at the finest: there, features are as
@@ -51,7 +51,7 @@ class SurfaceNoise {
   Values refined_once(int from, const Scheme& scheme, const std::vector<double>& vertex_alpha, ConstValuesRef control,
                       const Progress& progress) const;
 
-  const Topology& topology_;
+  Topology topology_;
   Scheme scheme_;
   std::vector<Topology> refined_;
 };

@@ -7,10 +7,10 @@
 
 #include "batten/error.h"
 #include "batten/limit/limit_matrix.h"
-#include "batten/tessellate/surface_mesh.h"
 #include "batten/mesh/face_normal.h"
 #include "batten/parallel/parallel.h"
 #include "batten/progress.h"
+#include "batten/tessellate/surface_mesh.h"
 
 namespace batten {
 namespace {

@@ -76,7 +76,7 @@ constexpr double kFarthest = 1e6;
 }  // namespace
 
 struct Interpolator::Parts {
-  const Topology& topology;
+  Topology topology;
   Scheme scheme;
   InterpolateOptions options;
   LimitMatrix matrix;

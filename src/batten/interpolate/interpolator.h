@@ -44,7 +44,7 @@ struct Interpolant {
   std::vector<double> vertex_alpha;  ///< empty, or the alpha used at each vertex: then see ordinary_surface()
 };
 
-/// Solves A P = Q for one connectivity and many Q: build once, solve per frame. The topology must outlive it.
+/// Solves A P = Q for one connectivity and many Q: build once, solve per frame.
 /// Cost: build O(H); solve about 30 passes over the mesh in cache for 1e-10, whatever its size (docs/decisions/002).
 class Interpolator {
  public:

@@ -31,7 +31,7 @@ struct LimitOptions {
   std::vector<double> vertex_alpha;  ///< empty, or Lai's alpha for each vertex instead of the scheme's
 };
 
-/// Build O(H); apply O(H k), matrix-free but for special rows. The topology must outlive the matrix. Safe to share.
+/// Build O(H); apply O(H k), matrix-free but for special rows. Safe to share.
 class LimitMatrix {
  public:
   /// Throws Error(NotTriangles) for Loop on other faces, Error(Cancelled).
@@ -82,7 +82,7 @@ class LimitMatrix {
   void apply_columns(const double* in, std::ptrdiff_t stride, Values& out, const Progress& progress) const;
   Index special_place(Index vertex) const;
 
-  const Topology& topology_;
+  Topology topology_;
   Scheme scheme_;
   LimitOptions options_;
   Buffer<std::uint8_t> kinds_;

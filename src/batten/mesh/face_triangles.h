@@ -24,8 +24,7 @@ inline TriangleCotangents triangle_cotangents(const Eigen::Vector3d& to_b, const
           twice_area};
 }
 
-/// Splits each face as triangulate_face does; holds nothing where all faces are triangles. The topology must outlive
-/// it.
+/// Splits each face as triangulate_face does; holds nothing where all faces are triangles.
 class FaceTriangles {
  public:
   /// points: V-by-3.
@@ -66,7 +65,7 @@ class FaceTriangles {
   }
 
  private:
-  const Topology& topology_;
+  Topology topology_;
   std::vector<std::array<Index, 3>> triangles_;  ///< positions in the face
 };
 

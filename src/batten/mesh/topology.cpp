@@ -290,10 +290,12 @@ bool build(const Mesh& mesh, TopologyTables& tables, const Progress& progress) {
 }  // namespace
 
 Topology::Topology(const Mesh& mesh, const Progress& progress) {
+  auto tables = std::make_shared<TopologyTables>();
+  tables_ = tables;
   if (mesh.points.rows() > std::numeric_limits<Index>::max()) {
     throw Error(ErrorCode::TooLarge, "the mesh has more than 2^31 - 1 vertices; split it");
   }
-  if (build(mesh, tables_, progress)) return;
+  if (build(mesh, *tables, progress)) return;
   const std::vector<MeshProblem> problems = check(mesh);
   if (problems.empty())
     throw Error(ErrorCode::BadShape, "the mesh was refused for a reason that check() does not know");
@@ -301,9 +303,7 @@ Topology::Topology(const Mesh& mesh, const Progress& progress) {
 }
 
 Topology Topology::from_tables(TopologyTables tables) {
-  Topology topology;
-  topology.tables_ = std::move(tables);
-  return topology;
+  return Topology(std::make_shared<const TopologyTables>(std::move(tables)));
 }
 
 Index Topology::vertex_face_count(Index vertex) const {

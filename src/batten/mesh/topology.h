@@ -4,6 +4,8 @@
 /// origin(next(h)), and the face lies to its left. At a boundary the twin is -1. vertex_half_edge(v) starts v's fan: at
 /// a boundary vertex it is the boundary's outgoing half-edge, so that turning counter-clockwise meets every face once.
 #pragma once
+#include <memory>
+
 #include "batten/buffer.h"
 #include "batten/mesh/mesh.h"
 #include "batten/types.h"
@@ -26,7 +28,9 @@ struct TopologyTables {
   Buffer<std::uint8_t> holes;       ///< F, or empty
 };
 
-/// Immutable and safe to share between threads. Memory: 16 bytes a half-edge and 8 to 12 a vertex.
+/// Immutable and safe to share between threads. Memory: 16 bytes a half-edge and 8 to 12 a vertex. A handle: copies are
+/// cheap and share the tables, which live as long as the last of them, so that what is built from a topology keeps its
+/// own and needs nobody else's.
 class Topology {
  public:
   /// The gate. O(V + H), no allocation per face. Throws Error: IndexOutOfRange, NotFinite, DegenerateFace,
@@ -34,24 +38,27 @@ class Topology {
   /// BadArgument (a crease that is no edge), Cancelled. Vertices without a face are allowed.
   explicit Topology(const Mesh& mesh, const Progress& progress = {});
 
+  Topology(const Topology&) = default;
+  Topology& operator=(const Topology&) = default;
+
   /// Trusts its caller: for Refinement and the like.
   static Topology from_tables(TopologyTables tables);
 
-  Index vertex_count() const { return tables_.vertex_count; }
-  Index face_count() const { return static_cast<Index>(tables_.face_offsets.size()) - 1; }
-  Index edge_count() const { return static_cast<Index>(tables_.edge_half_edges.size()); }
-  Index half_edge_count() const { return static_cast<Index>(tables_.origins.size()); }
+  Index vertex_count() const { return tables_->vertex_count; }
+  Index face_count() const { return static_cast<Index>(tables_->face_offsets.size()) - 1; }
+  Index edge_count() const { return static_cast<Index>(tables_->edge_half_edges.size()); }
+  Index half_edge_count() const { return static_cast<Index>(tables_->origins.size()); }
 
-  Index face_begin(Index face) const { return tables_.face_offsets[face]; }
-  Index face_end(Index face) const { return tables_.face_offsets[face + 1]; }
+  Index face_begin(Index face) const { return tables_->face_offsets[face]; }
+  Index face_end(Index face) const { return tables_->face_offsets[face + 1]; }
   Index face_size(Index face) const { return face_end(face) - face_begin(face); }
-  Index uniform_face_size() const { return tables_.uniform_face_size; }
+  Index uniform_face_size() const { return tables_->uniform_face_size; }
 
-  Index origin(Index half_edge) const { return tables_.origins[half_edge]; }
+  Index origin(Index half_edge) const { return tables_->origins[half_edge]; }
   Index destination(Index half_edge) const { return origin(next(half_edge)); }
-  Index twin(Index half_edge) const { return tables_.twins[half_edge]; }
-  Index face(Index half_edge) const { return tables_.faces[half_edge]; }
-  Index edge(Index half_edge) const { return tables_.edges[half_edge]; }
+  Index twin(Index half_edge) const { return tables_->twins[half_edge]; }
+  Index face(Index half_edge) const { return tables_->faces[half_edge]; }
+  Index edge(Index half_edge) const { return tables_->edges[half_edge]; }
   Index next(Index half_edge) const {
     const Index f = face(half_edge);
     return half_edge + 1 == face_end(f) ? face_begin(f) : half_edge + 1;
@@ -61,10 +68,10 @@ class Topology {
     return half_edge == face_begin(f) ? face_end(f) - 1 : half_edge - 1;
   }
 
-  Index edge_half_edge(Index edge) const { return tables_.edge_half_edges[edge]; }
+  Index edge_half_edge(Index edge) const { return tables_->edge_half_edges[edge]; }
   bool is_boundary_edge(Index edge) const { return twin(edge_half_edge(edge)) < 0; }
 
-  Index vertex_half_edge(Index vertex) const { return tables_.vertex_half_edges[vertex]; }
+  Index vertex_half_edge(Index vertex) const { return tables_->vertex_half_edges[vertex]; }
   bool is_isolated(Index vertex) const { return vertex_half_edge(vertex) < 0; }
   /// At a vertex with faces.
   bool is_boundary_vertex(Index vertex) const { return twin(vertex_half_edge(vertex)) < 0; }
@@ -82,23 +89,24 @@ class Topology {
     }
   }
 
-  bool has_creases() const { return !tables_.edge_sharpness.empty(); }
-  bool has_corners() const { return !tables_.vertex_sharpness.empty(); }
-  bool has_holes() const { return !tables_.holes.empty(); }
+  bool has_creases() const { return !tables_->edge_sharpness.empty(); }
+  bool has_corners() const { return !tables_->vertex_sharpness.empty(); }
+  bool has_holes() const { return !tables_->holes.empty(); }
   /// Boundary edges are infinitely sharp.
   float edge_sharpness(Index edge) const {
     if (is_boundary_edge(edge)) return kInfiniteSharpness;
-    return has_creases() ? tables_.edge_sharpness[edge] : 0.0F;
+    return has_creases() ? tables_->edge_sharpness[edge] : 0.0F;
   }
   /// As tagged; what a boundary rule adds is not in it.
-  float vertex_sharpness(Index vertex) const { return has_corners() ? tables_.vertex_sharpness[vertex] : 0.0F; }
-  bool is_hole(Index face) const { return has_holes() && tables_.holes[face] != 0; }
+  float vertex_sharpness(Index vertex) const { return has_corners() ? tables_->vertex_sharpness[vertex] : 0.0F; }
+  bool is_hole(Index face) const { return has_holes() && tables_->holes[face] != 0; }
 
-  const TopologyTables& tables() const { return tables_; }
+  const TopologyTables& tables() const { return *tables_; }
 
  private:
-  Topology() = default;
-  TopologyTables tables_;
+  explicit Topology(std::shared_ptr<const TopologyTables> tables) : tables_(std::move(tables)) {}
+
+  std::shared_ptr<const TopologyTables> tables_;  // never null: there is no move that would leave nothing behind
 };
 
 /// Throws Error(BadShape) unless values has one row a vertex.

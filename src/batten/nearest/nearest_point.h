@@ -25,7 +25,7 @@ struct NearestPoint {
 /// takes a few microseconds, one near its medial axis, where many places are equally near, up to some milliseconds.
 class NearestPoints {
  public:
-  /// control: V-by-3. The topology must outlive it. Throws Error(NotTriangles, BadShape, NotFinite, Cancelled), and
+  /// control: V-by-3. Throws Error(NotTriangles, BadShape, NotFinite, Cancelled), and
   /// Error(BadArgument) where there is no face to be near to.
   NearestPoints(const Topology& topology, const Scheme& scheme, ConstValuesRef control, const Progress& progress = {});
   ~NearestPoints();

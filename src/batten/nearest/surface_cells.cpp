@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "batten/limit/limit_matrix.h"
-#include "batten/patch/level_values.h"
 #include "batten/parallel/parallel.h"
+#include "batten/patch/level_values.h"
 
 namespace batten {
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "batten/patch/face_ring.h"
-#include "batten/refine/refinement.h"
 #include "batten/patch/regular_patch.h"
+#include "batten/refine/refinement.h"
 
 namespace batten {
 
@@ -39,7 +39,7 @@ struct Piece {
   std::size_t first_row;
 };
 
-/// The pieces of faces, for a uniform grid of 2^levels steps a side. The base topology must outlive it.
+/// The pieces of faces, for a uniform grid of 2^levels steps a side.
 class Pieces {
  public:
   /// What becomes of faces that are irregular at the last level.
@@ -98,7 +98,7 @@ class Pieces {
   Index aligned_corner(const Site& site, Index size, Piece& piece) const;
   void sort_pieces();
 
-  const Topology& base_;
+  Topology base_;
   Scheme scheme_;
   int levels_;
   Rest rest_;

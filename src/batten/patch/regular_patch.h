@@ -28,7 +28,7 @@ inline constexpr std::array<std::array<int, 2>, kTrianglePatchSize> kTriangleLat
 /// Which vertices are regular, and the patches of the faces between them.
 class PatchFinder {
  public:
-  /// Catmull-Clark: faces are quads. O(H). The topology must outlive it.
+  /// Catmull-Clark: faces are quads. O(H).
   PatchFinder(const Topology& topology, const Scheme& scheme);
 
   /// The patch of the half-edge's face; false where there is none: next to an extraordinary vertex, a dart, a crease
@@ -51,7 +51,7 @@ class PatchFinder {
   void find_triangle(Index half_edge, RegularPatch& patch) const;
   bool sector_is_regular(Index half_edge) const;
 
-  const Topology& topology_;
+  Topology topology_;
   Scheme scheme_;
   bool quads_;
   Buffer<Kind> kinds_;

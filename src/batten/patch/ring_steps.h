@@ -7,16 +7,9 @@
 
 #include "batten/patch/face_ring.h"
 #include "batten/patch/regular_patch.h"
+#include "batten/refine/sparse_rows.h"
 
 namespace batten {
-
-/// A few numbers a row.
-struct SparseRows {
-  Buffer<Index> starts{0};  ///< rows + 1
-  Buffer<Index> columns;
-  Buffer<double> weights;
-  Index count() const { return static_cast<Index>(starts.size()) - 1; }
-};
 
 /// Kinds of one-rings and their children. A ring of a face has four children; each is a regular patch or a ring again,
 /// for smooth extraordinary vertices, creases and corners the same one from some level on, so that the kinds are few.

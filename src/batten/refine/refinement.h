@@ -14,7 +14,6 @@ namespace batten {
 /// face (V + E + f). Catmull-Clark makes of each half-edge h of the parent the quad h: (origin(h), edge(h), face,
 /// edge(previous(h))). The others make of each triangle f the triangles 4f..4f+2 at its corners and 4f+3 in the middle.
 /// Rules: OpenSubdiv 3.5's, to rounding; the Butterflies' stand in refine/butterfly_rules.h. Cost O(H) time and memory.
-/// The topology must outlive the refinement.
 class Refinement {
  public:
   /// vertex_alpha: empty, or Lai's alpha for each vertex instead of scheme.alpha.
@@ -31,7 +30,7 @@ class Refinement {
   Values apply(ConstValuesRef values, const Progress& progress = {}) const;
 
  private:
-  const Topology& topology_;
+  Topology topology_;
   Scheme scheme_;
   std::vector<double> vertex_alpha_;
   Topology child_;

@@ -7,14 +7,14 @@
 #include <string>
 
 #include "batten/error.h"
-#include "batten/patch/level_values.h"
-#include "batten/surface/ring_blocks.h"
-#include "batten/surface/ring_descents.h"
-#include "batten/patch/spline_jet.h"
 #include "batten/limit/vertex_limit.h"
 #include "batten/parallel/parallel.h"
 #include "batten/patch/halving.h"
+#include "batten/patch/level_values.h"
 #include "batten/patch/ring_steps.h"
+#include "batten/patch/spline_jet.h"
+#include "batten/surface/ring_blocks.h"
+#include "batten/surface/ring_descents.h"
 
 namespace batten {
 
@@ -89,7 +89,7 @@ Buffer<Double4> with_a_spare_column(ConstValuesRef values) {
 }  // namespace
 
 struct LimitSurface::Parts {
-  const Topology& control_topology;
+  Topology control_topology;
   Scheme scheme;
   bool quads;
   std::unique_ptr<Refinement> first;

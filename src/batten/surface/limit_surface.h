@@ -45,7 +45,7 @@ PointCurvature curvature_of(const Jet& jet);
 /// Built for a connectivity and control points; asking is const and safe from several threads. Build O(H), 0.2 to 3
 /// microseconds a face. A jet costs 20 to 30 ns on regular faces, 20 to 60 more next to irregular vertices, and some 40
 /// for every five halvings beyond those that are kept: up to 3 kB for each vertex of the base, eight halvings where a
-/// tenth of the faces are irregular, two where all are (docs/decisions/008-jets.md). The topology must outlive it.
+/// tenth of the faces are irregular, two where all are (docs/decisions/008-jets.md).
 class LimitSurface {
  public:
   /// control: V-by-3. Throws Error(NotTriangles, BadShape).

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "batten/patch/spline_jet.h"
 #include "batten/patch/ring_steps.h"
+#include "batten/patch/spline_jet.h"
 
 namespace batten {
 
@@ -52,19 +52,6 @@ class RingBlocks {
  private:
   /// The ring as seen from its first point.
   void centre(Index kind, const Double4* points, const Index* rows, Buffer<Double4>& ring) const;
-  /// One point of a step on a ring.
-  static Double4 combine(const SparseRows& rows, Index row, const Double4* ring) {
-    Double4 even{};
-    Double4 odd{};
-    Index e = rows.starts[row];
-    const Index end = rows.starts[row + 1];
-    for (; e + 1 < end; e += 2) {
-      even += rows.weights[e] * ring[rows.columns[e]];
-      odd += rows.weights[e + 1] * ring[rows.columns[e + 1]];
-    }
-    if (e < end) even += rows.weights[e] * ring[rows.columns[e]];
-    return even + odd;
-  }
 
   const RingSteps& steps_;
   Buffer<Node> nodes_;

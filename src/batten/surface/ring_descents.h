@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "batten/patch/spline_jet.h"
 #include "batten/patch/ring_steps.h"
+#include "batten/patch/spline_jet.h"
 
 namespace batten {
 

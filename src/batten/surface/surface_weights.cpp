@@ -9,14 +9,14 @@
 #include <vector>
 
 #include "batten/error.h"
-#include "batten/patch/spline_jet.h"
 #include "batten/limit/vertex_limit.h"
 #include "batten/parallel/parallel.h"
-#include "batten/refine/child_topology.h"
 #include "batten/patch/halving.h"
 #include "batten/patch/pieces.h"
-#include "batten/refine/refined_values.h"
 #include "batten/patch/ring_steps.h"
+#include "batten/patch/spline_jet.h"
+#include "batten/refine/child_topology.h"
+#include "batten/refine/refined_values.h"
 
 namespace batten {
 
@@ -54,7 +54,7 @@ struct FirstStep {
 }  // namespace
 
 struct SurfaceWeights::Parts {
-  const Topology& control;
+  Topology control;
   Scheme scheme;
   bool quads;
   std::unique_ptr<Refinement> first;

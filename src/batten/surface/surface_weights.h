@@ -4,8 +4,8 @@
 #include <memory>
 #include <span>
 
-#include "batten/surface/limit_surface.h"
 #include "batten/progress.h"
+#include "batten/surface/limit_surface.h"
 
 namespace batten {
 
@@ -13,7 +13,7 @@ namespace batten {
 enum class JetPart { Point, Du, Dv, Duu, Duv, Dvv };
 
 /// Built for a connectivity, O(H): under a microsecond a face. A row takes about one microsecond, three where the base
-/// is a first refinement. The topology must outlive it.
+/// is a first refinement.
 class SurfaceWeights {
  public:
   /// Throws Error(NotTriangles).

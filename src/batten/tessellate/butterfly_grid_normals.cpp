@@ -1,9 +1,9 @@
-#include "batten/tessellate/butterfly_grids.h"
-#include "batten/tessellate/grid_faces.h"
-#include "batten/tessellate/lattice_walk.h"
 #include "batten/limit/limit_matrix.h"
 #include "batten/parallel/parallel.h"
 #include "batten/scheme/sharpness.h"
+#include "batten/tessellate/butterfly_grids.h"
+#include "batten/tessellate/grid_faces.h"
+#include "batten/tessellate/lattice_walk.h"
 
 namespace batten {
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "batten/tessellate/lattice_walk.h"
 #include "batten/parallel/parallel.h"
+#include "batten/tessellate/lattice_walk.h"
 
 namespace batten {
 

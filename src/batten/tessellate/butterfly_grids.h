@@ -10,8 +10,8 @@ namespace batten {
 /// `levels` steps, 1 or more, of a base of triangles. control: V-by-k; out: room for the vertices of
 /// TessellationLayout(base, false, levels), k numbers each. Each level is filled from the one before it, kept in
 /// doubles: within a face and across its sides the stencil slides over rows of the lattice; around the base's vertices
-/// and beside sharp edges the rules walk (tessellate/lattice_walk.h). The same points as refine()'s, to rounding. O(output),
-/// threaded. Throws Error(Cancelled).
+/// and beside sharp edges the rules walk (tessellate/lattice_walk.h). The same points as refine()'s, to rounding.
+/// O(output), threaded. Throws Error(Cancelled).
 template <typename Scalar>
 void fill_butterfly_grids(const Topology& base, const Scheme& scheme, ConstValuesRef control, int levels, Scalar* out,
                           const Progress& progress = {});

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "batten/error.h"
-#include "batten/tessellate/grid_faces.h"
 #include "batten/parallel/parallel.h"
+#include "batten/tessellate/grid_faces.h"
 
 namespace batten {
 

@@ -1,7 +1,7 @@
 /// \file Attributes at corners, texture coordinates above all, over the grids of a tessellation.
 #pragma once
-#include "batten/tessellate/tessellation_layout.h"
 #include "batten/mesh/mesh.h"
+#include "batten/tessellate/tessellation_layout.h"
 
 namespace batten {
 

@@ -2,8 +2,8 @@
 /// (refine/butterfly_rules.h), without tables: each face is a lattice of triangles, and vertices are numbered as in
 /// tessellate/tessellation_layout.h.
 #pragma once
-#include "batten/tessellate/tessellation_layout.h"
 #include "batten/refine/butterfly_rules.h"
+#include "batten/tessellate/tessellation_layout.h"
 
 namespace batten {
 
@@ -95,7 +95,7 @@ class LatticeWalk {
   }
   Index segment(const HalfEdge& h) const { return h.side == 0 ? h.i : (h.side == 1 ? h.j : layout_.steps - 1 - h.j); }
 
-  const Topology& base_;
+  Topology base_;
   const TessellationLayout& layout_;
   const LatticeTags& tags_;
 };

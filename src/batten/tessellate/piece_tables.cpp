@@ -1,7 +1,7 @@
 #include "batten/tessellate/piece_tables.h"
 
-#include "batten/tessellate/piece_grid.h"
 #include "batten/parallel/parallel.h"
+#include "batten/tessellate/piece_grid.h"
 
 namespace batten {
 

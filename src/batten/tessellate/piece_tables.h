@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "batten/tessellate/tile_weights.h"
 #include "batten/patch/pieces.h"
+#include "batten/tessellate/tile_weights.h"
 
 namespace batten {
 

@@ -1,7 +1,7 @@
 /// \file Where the vertices of a tessellation stand (tessellate/tessellator.h has the order).
 #pragma once
-#include "batten/tessellate/piece_grid.h"
 #include "batten/mesh/topology.h"
+#include "batten/tessellate/piece_grid.h"
 
 namespace batten {
 

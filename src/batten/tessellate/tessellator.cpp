@@ -9,15 +9,15 @@
 #include <tuple>
 
 #include "batten/error.h"
+#include "batten/parallel/parallel.h"
+#include "batten/refine/child_topology.h"
+#include "batten/refine/refined_mesh.h"
+#include "batten/refine/refined_values.h"
 #include "batten/tessellate/butterfly_grids.h"
 #include "batten/tessellate/corner_tessellation.h"
 #include "batten/tessellate/grid_faces.h"
 #include "batten/tessellate/piece_grid.h"
 #include "batten/tessellate/tessellation_layout.h"
-#include "batten/parallel/parallel.h"
-#include "batten/refine/child_topology.h"
-#include "batten/refine/refined_mesh.h"
-#include "batten/refine/refined_values.h"
 
 namespace batten {
 
@@ -34,7 +34,7 @@ struct TableCache {
 };
 
 struct Tessellator::Parts {
-  const Topology& control;
+  Topology control;
   Scheme scheme;
   std::unique_ptr<Refinement> first;  ///< to the base, where the control mesh itself is not
   TessellationLayout layout;

@@ -22,7 +22,7 @@ namespace batten {
 
 /// Built once for a connectivity, evaluated again when control values move. Build O(H), at the first evaluation;
 /// evaluate O(output), threaded, the same bits for any number of threads. Memory: 120 bytes a base face, and about as
-/// much a piece next to irregular ones; for one level of refined points none. The topology must outlive it.
+/// much a piece next to irregular ones; for one level of refined points none.
 class Tessellator {
  public:
   /// levels: 1 or more. Throws Error(NotTriangles, BadArgument, TooLarge).

@@ -1,0 +1,43 @@
+#include "batten/refine/sparse_rows.h"
+
+#include <algorithm>
+
+namespace batten {
+
+SparseRows identity_rows(Index count) {
+  SparseRows rows;
+  for (Index i = 0; i < count; ++i) {
+    rows.add(i, 1.0);
+    rows.end_row();
+  }
+  return rows;
+}
+
+SparseRows product(const SparseRows& left, const SparseRows& right, Index columns) {
+  SparseRows result;
+  Buffer<double> sums(static_cast<std::size_t>(columns), 0.0);
+  Buffer<std::uint8_t> met(static_cast<std::size_t>(columns), 0);
+  Buffer<Index> of_row;
+  for (Index r = 0; r < left.count(); ++r) {
+    of_row.clear();
+    for (Index e = left.starts[r]; e < left.starts[r + 1]; ++e) {
+      const Index row = left.columns[e];
+      for (Index k = right.starts[row]; k < right.starts[row + 1]; ++k) {
+        const Index column = right.columns[k];
+        if (met[column] == 0) of_row.push_back(column);
+        met[column] = 1;
+        sums[column] += left.weights[e] * right.weights[k];
+      }
+    }
+    std::sort(of_row.begin(), of_row.end());
+    for (const Index column : of_row) {
+      if (sums[column] != 0.0) result.add(column, sums[column]);
+      sums[column] = 0.0;
+      met[column] = 0;
+    }
+    result.end_row();
+  }
+  return result;
+}
+
+}  // namespace batten
