@@ -78,6 +78,7 @@ SolveReport FreeBlock::solve_krylov(ConstValuesRef targets, Values& x, const Sto
   }
   if (!krylov.converged && (!symmetric_ || !positive || krylov.indefinite)) {
     const KrylovReport first = krylov;
+    report.method = SolveMethod::BiCgStab;
     report.method_name = first.iterations > 0 ? "conjugate gradients (indefinite), then BiCGSTAB" : "BiCGSTAB";
     krylov = bicgstab(map(), diagonal, b, x, stop);
     for (int& after : krylov.measured_after) after += first.iterations;

@@ -143,6 +143,11 @@ Attribute refine_at_corners(const Topology& topology, SchemeKind kind, const Att
   return {attribute.name, step.take_values(), std::move(rows)};
 }
 
+std::vector<Group> refine_groups(const Topology& topology, SchemeKind kind, std::vector<Group> groups) {
+  for (Group& group : groups) group.first_face = first_child(topology, kind, group.first_face);
+  return groups;
+}
+
 RefinedMesh refine_mesh(const Topology& topology, const Scheme& scheme, const Mesh& control, int levels,
                         const Progress& progress) {
   if (levels < 0) throw Error(ErrorCode::BadArgument, "levels must not be negative");
@@ -165,7 +170,7 @@ RefinedMesh refine_mesh(const Topology& topology, const Scheme& scheme, const Me
         attributes[i].values = step.apply(attributes[i].values, parts(i + 2));
       }
     }
-    for (Group& group : groups) group.first_face = first_child(current, scheme.kind, group.first_face);
+    groups = refine_groups(current, scheme.kind, std::move(groups));
     current = std::move(step).child();
     step_scheme = scheme.after_first_step();
   }

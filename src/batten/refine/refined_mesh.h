@@ -19,6 +19,9 @@ struct RefinedMesh {
 /// topology's mesh; throws Error(BadShape) where it has not one row number per corner.
 Attribute refine_at_corners(const Topology& topology, SchemeKind kind, const Attribute& attribute);
 
+/// Groups after one step: they begin where the children of their faces do.
+std::vector<Group> refine_groups(const Topology& topology, SchemeKind kind, std::vector<Group> groups);
+
 /// `levels` steps for a mesh and its topology. Points and attributes at the vertices follow the scheme, attributes at
 /// corners are interpolated linearly, groups follow their faces, creases, corners and holes are the refined ones, the
 /// boundary's holes included (with_surface_holes); normals are dropped: control points have none.

@@ -12,6 +12,7 @@ namespace batten {
 enum class SolveMethod {
   Auto,
   ConjugateGradient,  ///< on the symmetric scaled system, diagonal preconditioner
+  BiCgStab,           ///< stabilised bi-conjugate gradients, where the rows are not symmetric or not definite
   Chebyshev,          ///< semi-iteration in cache-sized tiles, mixed precision
   Jacobi,             ///< damped Jacobi: Thall's iteration is omega = 1/2
   Richardson,         ///< P + M - A P: Lai and Cheng's series
@@ -35,11 +36,11 @@ struct ErrorSummary {
 
 /// What an iteration achieved.
 struct SolveReport {
-  SolveMethod method = SolveMethod::Auto;
-  std::string method_name;               ///< for people, with what was switched to, if anything
-  int iterations = 0;                    ///< applications of the matrix
-  std::vector<double> residual_history;  ///< max_i |target - A x|_i, each time it was measured, the start included
-  std::vector<int> measured_after;       ///< iterations before each entry of residual_history
+  SolveMethod method = SolveMethod::Auto;  ///< what solved, the last where several were tried; Auto: nothing to solve
+  std::string method_name;                 ///< for people, with what was switched to, if anything
+  int iterations = 0;                      ///< applications of the matrix
+  std::vector<double> residual_history;    ///< max_i |target - A x|_i, each time it was measured, the start included
+  std::vector<int> measured_after;         ///< iterations before each entry of residual_history
   double seconds = 0.0;
   bool converged = false;
   ErrorSummary errors;  ///< of the rows solved for, where the method measures them row by row; else empty
