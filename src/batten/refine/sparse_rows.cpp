@@ -4,6 +4,19 @@
 
 namespace batten {
 
+void merge(VertexWeights& row) {
+  std::stable_sort(row.begin(), row.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    if (kept > 0 && row[kept - 1].first == row[i].first) {
+      row[kept - 1].second += row[i].second;
+    } else {
+      row[kept++] = row[i];
+    }
+  }
+  row.resize(kept);
+}
+
 SparseRows identity_rows(Index count) {
   SparseRows rows;
   for (Index i = 0; i < count; ++i) {

@@ -1,5 +1,8 @@
 /// \file A matrix of few numbers a row, and its products with points and with another.
 #pragma once
+#include <utility>
+#include <vector>
+
 #include "batten/buffer.h"
 #include "batten/types.h"
 
@@ -19,6 +22,12 @@ struct SparseRows {
   }
   void end_row() { starts.push_back(static_cast<Index>(columns.size())); }
 };
+
+/// One row by itself: vertices and their weights.
+using VertexWeights = std::vector<std::pair<Index, double>>;
+
+/// Sorts by vertex and adds up the weights of each, in the order in which they stand. Zeros stay.
+void merge(VertexWeights& row);
 
 /// The sum of weight * points[column] over a row. Point is a number or a vector of numbers that starts as zero. Two
 /// sums take turns, so that the processor need not wait for one addition before the next.
