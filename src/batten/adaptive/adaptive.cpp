@@ -15,6 +15,7 @@
 #include "batten/adaptive/corner_normals.h"
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
+#include "batten/patch/pieces.h"
 #include "batten/progress.h"
 #include "batten/refine/refinement.h"
 
@@ -26,10 +27,10 @@ namespace {
 constexpr std::ptrdiff_t kChunk = 1 << 15;
 
 /// Flags of base faces from those of control faces: each is itself, or one child a corner.
-Buffer<std::uint8_t> base_holes(const Topology& control, const Topology& base, const Scheme& scheme) {
+Buffer<std::uint8_t> base_holes(const Topology& control, const Scheme& scheme) {
   const Buffer<std::uint8_t> holes = surface_holes(control, scheme);
   if (std::find(holes.begin(), holes.end(), 1) == holes.end()) return {};
-  const bool same = &control == &base;
+  const bool same = !needs_first_step(control, scheme);
   Buffer<std::uint8_t> flags;
   for (Index f = 0; f < control.face_count(); ++f) {
     flags.insert(flags.end(), static_cast<std::size_t>(same ? 1 : control.face_size(f)), holes[f]);
@@ -81,7 +82,7 @@ class AdaptiveBuilder {
         options_(options),
         surface_(is_interpolating(scheme.kind) ? nullptr : std::make_unique<LimitSurface>(topology, scheme, control)),
         butterfly_(surface_ != nullptr ? nullptr : std::make_unique<ButterflyPoints>(topology, scheme, control)),
-        forest_(base(), base_holes(topology, base(), scheme)),
+        forest_(base(), base_holes(topology, scheme)),
         quads_(options.faces == FaceKind::Quads) {
     add_vertices(forest_.vertex_places(), 0);
   }

@@ -44,17 +44,35 @@ class Renumbering {
 
 }  // namespace
 
+void Numbering::clear() {
+  things_.clear();
+  numbers_.clear();
+}
+
+Index Numbering::number(Index thing) {
+  const auto next = static_cast<Index>(things_.size());
+  if (things_.size() < kMostSearched) {
+    const auto place = std::find(things_.begin(), things_.end(), thing);
+    if (place != things_.end()) return static_cast<Index>(place - things_.begin());
+    things_.push_back(thing);
+    return next;
+  }
+  if (numbers_.empty()) {
+    for (Index i = 0; i < next; ++i) numbers_.emplace(things_[i], i);
+  }
+  const auto [place, is_new] = numbers_.emplace(thing, next);
+  if (is_new) things_.push_back(thing);
+  return place->second;
+}
+
 void FaceRing::add_face(const Topology& topology, Index half_edge) {
   const Index face = topology.face(half_edge);
-  if (std::find(faces_.begin(), faces_.end(), face) != faces_.end()) return;
-  faces_.push_back(face);
+  const std::size_t known = starts_.size();
+  if (static_cast<std::size_t>(faces_.number(face)) < known) return;
   starts_.push_back(half_edge);
   Index h = half_edge;
   for (Index c = 0; c < topology.face_size(face); ++c, h = topology.next(h)) {
-    const Index v = topology.origin(h);
-    const auto place = std::find(vertices_.begin(), vertices_.end(), v);
-    append(key_, static_cast<std::int16_t>(place - vertices_.begin()));
-    if (place == vertices_.end()) vertices_.push_back(v);
+    append(key_, vertices_.number(topology.origin(h)));
   }
 }
 
@@ -72,7 +90,7 @@ bool FaceRing::add_fan(const Topology& topology, Index half_edge, std::size_t mo
     h = topology.twin(p);
     if (h < 0 || h == half_edge) break;
     add_face(topology, h);
-    if (vertices_.size() > most) return false;
+    if (vertices().size() > most) return false;
   }
   key_.push_back(h == half_edge ? 'c' : 'o');
   if (h == half_edge) return true;
@@ -80,7 +98,7 @@ bool FaceRing::add_fan(const Topology& topology, Index half_edge, std::size_t mo
     h = topology.next(t);
     add_edge(h, topology.next(h));
     add_face(topology, h);
-    if (vertices_.size() > most) return false;
+    if (vertices().size() > most) return false;
     t = topology.twin(h);
   }
   key_.push_back('.');
@@ -104,8 +122,8 @@ bool FaceRing::gather(const Topology& topology, const Scheme& scheme, Index half
   // Chaikin's rule looks at all edges at both ends of a semi-sharp edge.
   const Buffer<Index> far_ends = far_ends_;
   for (const Index far : far_ends) {
-    const auto* const own_end = vertices_.data() + size;
-    if (std::find(static_cast<const Index*>(vertices_.data()), own_end, topology.origin(far)) != own_end) continue;
+    const auto own_end = vertices().begin() + size;
+    if (std::find(vertices().begin(), own_end, topology.origin(far)) != own_end) continue;
     if (!add_fan(topology, far, most)) return false;
   }
   return true;

@@ -1,15 +1,30 @@
 /// \file A face with its one-ring, cut out and described so that equal surroundings are recognised.
 #pragma once
 #include <string>
-#include <vector>
+#include <unordered_map>
 
 #include "batten/mesh/topology.h"
 #include "batten/scheme/scheme.h"
 
 namespace batten {
 
+/// Numbers things by the order in which they come. A list that is searched through, and a hash table once it is long.
+class Numbering {
+ public:
+  void clear();
+  /// The number of a thing; a new one gets the next.
+  Index number(Index thing);
+  const Buffer<Index>& things() const { return things_; }
+
+ private:
+  static constexpr std::size_t kMostSearched = 64;
+
+  Buffer<Index> things_;
+  std::unordered_map<Index, Index> numbers_;
+};
+
 /// Lists the one-ring of a face, from one of its half-edges on, in an order that depends on the surroundings alone.
-/// Under Chaikin's rule also the faces around the far ends of semi-sharp edges that leave the face.
+/// Under Chaikin's rule also the faces around the far ends of semi-sharp edges that leave the face. O(ring).
 class FaceRing {
  public:
   static constexpr std::size_t kAnyNumber = static_cast<std::size_t>(-1);
@@ -17,10 +32,10 @@ class FaceRing {
   /// False where the ring has more than `most` vertices.
   bool gather(const Topology& topology, const Scheme& scheme, Index half_edge, std::size_t most = kAnyNumber);
 
-  const Buffer<Index>& vertices() const { return vertices_; }  ///< the face's own first, from the half-edge's origin on
-  const Buffer<Index>& half_edges() const {
-    return starts_;
-  }  ///< one a face, the given one first: where its list starts
+  /// The face's own first, from the half-edge's origin on.
+  const Buffer<Index>& vertices() const { return vertices_.things(); }
+  /// One a face, the given one first: where its list starts.
+  const Buffer<Index>& half_edges() const { return starts_; }
   /// Equal for two faces exactly when refinement does the same to both for any number of levels: connectivity and the
   /// sharpness of all edges at the face's vertices.
   const std::string& key() const { return key_; }
@@ -29,9 +44,9 @@ class FaceRing {
   void add_face(const Topology& topology, Index half_edge);
   bool add_fan(const Topology& topology, Index half_edge, std::size_t most);
 
-  Buffer<Index> vertices_;
+  Numbering vertices_;
   Buffer<Index> starts_;
-  Buffer<Index> faces_;
+  Numbering faces_;
   Buffer<Index> far_ends_;  ///< half-edges that leave the far ends of semi-sharp edges
   std::string key_;
 };

@@ -1,64 +1,63 @@
 #include "batten/patch/ring_steps.h"
 
-#include "batten/refine/refinement.h"
+#include <algorithm>
+
+#include "batten/refine/child_topology.h"
+#include "batten/refine/refined_rows.h"
 
 namespace batten {
 
 namespace {
 
-/// The given rows of a matrix, without its zeros.
-template <typename Rows>
-SparseRows rows_of(const Values& matrix, const Rows& rows, std::size_t count) {
-  SparseRows sparse;
-  for (std::size_t r = 0; r < count; ++r) {
-    for (Index c = 0; rows[r] >= 0 && c < matrix.cols(); ++c) {
-      if (matrix(rows[r], c) == 0.0) continue;
-      sparse.columns.push_back(c);
-      sparse.weights.push_back(matrix(rows[r], c));
-    }
-    sparse.starts.push_back(static_cast<Index>(sparse.columns.size()));
-  }
-  return sparse;
+void append_row(const SparseRows& matrix, Index row, SparseRows& rows) {
+  for (Index e = matrix.starts[row]; e < matrix.starts[row + 1]; ++e) rows.add(matrix.columns[e], matrix.weights[e]);
+  rows.end_row();
 }
 
-/// Collects rows of a dense matrix, each once and without its zeros.
+/// The given rows of a matrix; missing ones are empty.
+template <typename Rows>
+SparseRows rows_of(const SparseRows& matrix, const Rows& rows, std::size_t count) {
+  SparseRows chosen;
+  for (std::size_t r = 0; r < count; ++r) {
+    if (rows[r] < 0) {
+      chosen.end_row();
+    } else {
+      append_row(matrix, rows[r], chosen);
+    }
+  }
+  return chosen;
+}
+
+/// Collects rows of a matrix, each once.
 class RowCollector {
  public:
-  explicit RowCollector(const Values& matrix)
-      : matrix_(matrix), numbers_(static_cast<std::size_t>(matrix.rows()), RegularPatch::kMissing) {}
+  explicit RowCollector(const SparseRows& matrix)
+      : matrix_(matrix), numbers_(static_cast<std::size_t>(matrix.count()), RegularPatch::kMissing) {}
 
   Index number_of(Index row) {
-    if (numbers_[row] == RegularPatch::kMissing) numbers_[row] = add(matrix_.row(row));
-    return numbers_[row];
-  }
-
-  Index add(const Eigen::Ref<const Eigen::RowVectorXd>& weights) {
-    for (Index c = 0; c < weights.cols(); ++c) {
-      if (weights[c] == 0.0) continue;
-      rows_.columns.push_back(c);
-      rows_.weights.push_back(weights[c]);
+    if (numbers_[row] == RegularPatch::kMissing) {
+      append_row(matrix_, row, rows_);
+      numbers_[row] = rows_.count() - 1;
     }
-    rows_.starts.push_back(static_cast<Index>(rows_.columns.size()));
-    return rows_.count() - 1;
+    return numbers_[row];
   }
 
   /// The points of a patch; those that are missing are rows of their own.
   Buffer<Index> patch(const RegularPatch& patch, bool quads) {
-    const int count = quads ? kQuadPatchSize : kTrianglePatchSize;
-    Values points = Values::Zero(count, matrix_.cols());
-    for (int i = 0; i < count; ++i) {
-      if (patch.rows[i] != RegularPatch::kMissing) points.row(i) = matrix_.row(patch.rows[i]);
-    }
-    const auto columns = static_cast<int>(matrix_.cols());
-    if (quads) {
-      complete_quad_patch(patch.rows.data(), points.data(), columns);
-    } else {
-      complete_triangle_patch(patch.rows.data(), points.data(), columns);
-    }
-    Buffer<Index> numbers;
-    for (int i = 0; i < count; ++i) {
+    const std::size_t count = quads ? kQuadPatchSize : kTrianglePatchSize;
+    Buffer<Index> columns;
+    for (std::size_t i = 0; i < count; ++i) {
       const Index row = patch.rows[i];
-      numbers.push_back(row == RegularPatch::kMissing ? add(points.row(i)) : number_of(row));
+      if (row == RegularPatch::kMissing) continue;
+      columns.insert(columns.end(), &matrix_.columns[matrix_.starts[row]], &matrix_.columns[matrix_.starts[row + 1]]);
+    }
+    std::sort(columns.begin(), columns.end());
+    columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+    const Values points = completed(patch, columns, quads);
+    Buffer<Index> numbers;
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool missing = patch.rows[i] == RegularPatch::kMissing;
+      numbers.push_back(missing ? add(points.row(static_cast<Eigen::Index>(i)), columns) : number_of(patch.rows[i]));
     }
     return numbers;
   }
@@ -66,7 +65,37 @@ class RowCollector {
   SparseRows take() { return std::move(rows_); }
 
  private:
-  const Values& matrix_;
+  /// All points of a patch, on these columns.
+  Values completed(const RegularPatch& patch, const Buffer<Index>& columns, bool quads) const {
+    const auto width = static_cast<int>(columns.size());
+    const int count = quads ? kQuadPatchSize : kTrianglePatchSize;
+    Values points = Values::Zero(count, width);
+    for (int i = 0; i < count; ++i) {
+      const Index row = patch.rows[i];
+      if (row == RegularPatch::kMissing) continue;
+      for (Index e = matrix_.starts[row]; e < matrix_.starts[row + 1]; ++e) {
+        const auto place = std::lower_bound(columns.begin(), columns.end(), matrix_.columns[e]) - columns.begin();
+        points(i, place) = matrix_.weights[e];
+      }
+    }
+    if (quads) {
+      complete_quad_patch(patch.rows.data(), points.data(), width);
+    } else {
+      complete_triangle_patch(patch.rows.data(), points.data(), width);
+    }
+    return points;
+  }
+
+  Index add(const Eigen::Ref<const Eigen::RowVectorXd>& weights, const Buffer<Index>& columns) {
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const double weight = weights[static_cast<Eigen::Index>(c)];
+      if (weight != 0.0) rows_.add(columns[c], weight);
+    }
+    rows_.end_row();
+    return rows_.count() - 1;
+  }
+
+  const SparseRows& matrix_;
   Buffer<Index> numbers_;
   SparseRows rows_;
 };
@@ -84,10 +113,8 @@ Index RingSteps::kind_of(const Topology& topology, const FaceRing& ring) {
   steps_.emplace_back();
   // The face is face 0 of the cutting, and its vertices stand in the ring's order.
   const Cutting cutting = cut_out(topology, ring.half_edges());
-  const Refinement refinement(cutting.topology, scheme_);
-  const Index count = cutting.topology.vertex_count();
-  const Values refined = refinement.apply(Values::Identity(count, count));
-  const Topology& child = refinement.child();
+  const SparseRows refined = refined_rows(cutting.topology, scheme_);
+  const Topology child = child_topology(cutting.topology, scheme_);
   const bool quads = scheme_.kind == SchemeKind::CatmullClark;
   // The side of each child that runs along u (a middle triangle's: against it).
   static constexpr Index kQuadSides[4] = {0, 4 + 3, 8 + 2, 12 + 1};
@@ -96,7 +123,7 @@ Index RingSteps::kind_of(const Topology& topology, const FaceRing& ring) {
   std::vector<Child> children(4);
   RowCollector collector(refined);
   Step step;
-  step.ring_size = count;
+  step.ring_size = cutting.topology.vertex_count();
   for (int c = 0; c < 4; ++c) {
     Child& result = children[c];
     const Index side = quads ? kQuadSides[c] : kTriangleSides[c];
@@ -107,7 +134,7 @@ Index RingSteps::kind_of(const Topology& topology, const FaceRing& ring) {
       continue;
     }
     FaceRing own;
-    own.gather(child, scheme_, side, FaceRing::kAnyNumber);
+    own.gather(child, scheme_, side);
     result.rows = rows_of(refined, own.vertices(), own.vertices().size());
     for (const Index v : own.vertices()) step.children[c].push_back(collector.number_of(v));
     result.kind = kind_of(child, own);

@@ -1,6 +1,7 @@
 #include "batten/surface/ring_descents.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace batten {
 
@@ -10,36 +11,37 @@ namespace {
 /// derivatives 2 n binary digits.
 constexpr std::size_t kMostToCorner = 4;
 
-Values product(const SparseRows& rows, const Values& right) {
-  Values result = Values::Zero(rows.count(), right.cols());
-  for (Index r = 0; r < rows.count(); ++r) {
-    double* to = &result(r, 0);
-    for (Index e = rows.starts[r]; e < rows.starts[r + 1]; ++e) {
-      const double* from = &right(rows.columns[e], 0);
-      const double weight = rows.weights[e];
-      for (std::ptrdiff_t c = 0; c < right.cols(); ++c) to[c] += weight * from[c];
-    }
+SparseRows some_rows(const SparseRows& matrix, const Buffer<Index>& rows) {
+  SparseRows some;
+  for (const Index r : rows) {
+    for (Index e = matrix.starts[r]; e < matrix.starts[r + 1]; ++e) some.add(matrix.columns[e], matrix.weights[e]);
+    some.end_row();
   }
-  return result;
-}
-
-Values some_rows(const Values& matrix, const Buffer<Index>& rows) {
-  Values result(static_cast<std::ptrdiff_t>(rows.size()), matrix.cols());
-  for (std::ptrdiff_t r = 0; r < result.rows(); ++r) result.row(r) = matrix.row(rows[r]);
-  return result;
+  return some;
 }
 
 }  // namespace
 
-RowsByFour::RowsByFour(const Values& matrix, const Buffer<Index>& rows) {
+RowsByFour::RowsByFour(const SparseRows& matrix, const Buffer<Index>& rows) {
   for (std::size_t first = 0; first < rows.size(); first += 4) {
     const std::size_t count = std::min<std::size_t>(4, rows.size() - first);
-    for (Index c = 0; c < matrix.cols(); ++c) {
-      double four[4] = {};
-      for (std::size_t r = 0; r < count; ++r) four[r] = matrix(rows[first + r], c);
-      if (std::all_of(four, four + 4, [](double weight) { return weight == 0.0; })) continue;
-      columns.push_back(c);
-      weights.insert(weights.end(), four, four + 4);
+    std::array<Index, 4> at{};
+    std::array<Index, 4> end{};
+    for (std::size_t r = 0; r < count; ++r) {
+      at[r] = matrix.starts[rows[first + r]];
+      end[r] = matrix.starts[rows[first + r] + 1];
+    }
+    while (true) {
+      Index column = std::numeric_limits<Index>::max();
+      for (std::size_t r = 0; r < count; ++r) {
+        if (at[r] < end[r]) column = std::min(column, matrix.columns[at[r]]);
+      }
+      if (column == std::numeric_limits<Index>::max()) break;
+      columns.push_back(column);
+      for (std::size_t r = 0; r < 4; ++r) {
+        const bool here = r < count && at[r] < end[r] && matrix.columns[at[r]] == column;
+        weights.push_back(here ? matrix.weights[at[r]++] : 0.0);
+      }
     }
     starts.push_back(static_cast<Index>(columns.size()));
   }
@@ -63,7 +65,7 @@ RingDescents::RingDescents(const RingSteps& steps)
     : steps_(steps), children_(steps.kind_count()), deeper_(children_.size()) {
   for (Index kind = 0; kind < steps.kind_count(); ++kind) {
     const RingSteps::Step& step = steps.step(kind);
-    const auto fill = [&](const Values& points, Children& children) {
+    const auto fill = [&](const SparseRows& points, Children& children) {
       std::size_t most = 0;
       for (int c = 0; c < 4; ++c) {
         children[c] = RowsByFour(points, step.children[c]);
@@ -71,15 +73,15 @@ RingDescents::RingDescents(const RingSteps& steps)
       }
       return most;
     };
-    const Values once = product(step.rows, Values::Identity(step.ring_size, step.ring_size));
-    const std::size_t weights = fill(once, children_[kind]);
+    const std::size_t weights = fill(step.rows, children_[kind]);
     for (int corner = 0; corner < 4; ++corner) {
       if (steps.child(kind, corner).kind != kind) continue;
-      Values power = some_rows(once, step.children[corner]);
+      SparseRows power = some_rows(step.rows, step.children[corner]);
+      const std::size_t full = static_cast<std::size_t>(power.count()) * static_cast<std::size_t>(step.ring_size);
       for (std::size_t n = 1; n <= kMostToCorner; ++n) {
         // The matrices are full: those of large rings would have more weights than halvings one by one.
-        if (static_cast<std::size_t>(power.size()) > (n + 1) * weights) break;
-        const Values points = product(step.rows, power);
+        if (full > (n + 1) * weights) break;
+        const SparseRows points = product(step.rows, power, step.ring_size);
         fill(points, deeper_[kind][corner].emplace_back());
         power = some_rows(points, step.children[corner]);
       }

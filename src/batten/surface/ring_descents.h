@@ -15,8 +15,8 @@ struct RowsByFour {
   Buffer<double> weights;  ///< four a column
 
   RowsByFour() = default;
-  /// Of these rows of a matrix; those missing from the last four are zero.
-  RowsByFour(const Values& matrix, const Buffer<Index>& rows);
+  /// Of these rows of a matrix whose columns ascend; those missing from the last four are zero.
+  RowsByFour(const SparseRows& matrix, const Buffer<Index>& rows);
   /// To as many rows as there are, rounded up to four.
   void apply(const Double4* from, Buffer<Double4>& to) const;
 };
