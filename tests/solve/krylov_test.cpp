@@ -38,7 +38,7 @@ TEST(ConjugateGradients, SolvesTheScaledSystemOfSeveralColumns) {
   const Values truth = random_matrix(40, 2).leftCols(5);
   const Values b = system.matrix * truth;
   Values x = Values::Zero(40, 5);
-  const KrylovReport report =
+  const SolveReport report =
       conjugate_gradients(map_of(system.matrix), system.scale, system.symmetric.diagonal(), b, x, {1e-13, 200, {}});
   EXPECT_TRUE(report.converged);
   EXPECT_LT((x - truth).cwiseAbs().maxCoeff(), 1e-11);  // 1e-13 times the largest scale over the least eigenvalue
@@ -49,7 +49,7 @@ TEST(ConjugateGradients, LeavesAColumnWithoutResidualAsItIs) {
   Values b = Values::Zero(20, 2);
   b.col(1).setOnes();
   Values x = Values::Zero(20, 2);
-  const KrylovReport report =
+  const SolveReport report =
       conjugate_gradients(map_of(system.matrix), system.scale, system.symmetric.diagonal(), b, x, {1e-12, 100, {}});
   EXPECT_TRUE(report.converged);
   EXPECT_TRUE((x.col(0).array() == 0.0).all());
@@ -71,7 +71,7 @@ TEST(BiCgStab, SolvesANonsymmetricSystem) {
   const Values truth = random_matrix(60, 4).leftCols(3);
   const Values b = a * truth;
   Values x = Values::Zero(60, 3);
-  const KrylovReport report = bicgstab(map_of(a), a.diagonal(), b, x, {1e-12, 500, {}});
+  const SolveReport report = bicgstab(map_of(a), a.diagonal(), b, x, {1e-12, 500, {}});
   EXPECT_TRUE(report.converged);
   EXPECT_LT((x - truth).cwiseAbs().maxCoeff(), 1e-11);
 }

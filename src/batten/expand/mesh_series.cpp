@@ -12,11 +12,6 @@ namespace batten {
 
 namespace {
 
-/// Where tiles cost more than they save: rows of huge faces, or surroundings that grow too fast.
-constexpr double kMostEntriesPerVertex = 40.0;
-constexpr double kMostOverlap = 6.0;
-constexpr double kValenceTwoAlpha = 1.0;
-
 /// Alpha = 1 at the components with a smooth vertex of valence 2, or nothing where there is none.
 std::vector<double> safe_alpha(const Topology& topology, const Scheme& scheme) {
   if (scheme.kind == SchemeKind::Loop) return {};
@@ -90,9 +85,9 @@ struct MeshSeries::Parts {
     const Progress rest = progress_within(progress, 0.2, 1.0);
     if (options.matrix == SeriesMatrix::Cotangent) {
       cotangents = std::make_unique<RemainderRows>(cotangent_rows(matrix, options.shape, kept, rest));
-    } else if (matrix.entry_count() <= kMostEntriesPerVertex * topology.vertex_count()) {
+    } else if (matrix.entry_count() <= TiledIteration::kMostEntriesPerRow * topology.vertex_count()) {
       tiles = std::make_unique<TiledPolynomial>(KeptRows(matrix, kept), rest);
-      if (!tiles->fits() || tiles->overlap() > kMostOverlap) tiles.reset();
+      if (!tiles->fits() || tiles->overlap() > TiledIteration::kMostOverlap) tiles.reset();
     }
   }
 

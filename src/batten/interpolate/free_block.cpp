@@ -2,7 +2,6 @@
 
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseLU>
-#include <chrono>
 #include <cmath>
 
 #include "batten/error.h"
@@ -14,10 +13,6 @@ namespace batten {
 namespace {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// Two solves: the second one for what rounding left of the residual.
 template <typename Factors>
@@ -56,7 +51,7 @@ LinearMap FreeBlock::map() const {
 }
 
 SolveReport FreeBlock::solve_krylov(ConstValuesRef targets, Values& x, const StopRule& stop) const {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(size());
   Eigen::VectorXd diagonal = Eigen::VectorXd::Ones(size());
   bool positive = true;
@@ -70,34 +65,18 @@ SolveReport FreeBlock::solve_krylov(ConstValuesRef targets, Values& x, const Sto
   }
   const Values b = masked(targets);
   SolveReport report;
-  KrylovReport krylov;
   if (symmetric_ && positive) {
-    report.method = SolveMethod::ConjugateGradient;
-    report.method_name = "conjugate gradients";
-    krylov = conjugate_gradients(map(), scale, scale.cwiseProduct(diagonal), b, x, stop);
+    report = conjugate_gradients(map(), scale, scale.cwiseProduct(diagonal), b, x, stop);
   }
-  if (!krylov.converged && (!symmetric_ || !positive || krylov.indefinite)) {
-    const KrylovReport first = krylov;
-    report.method = SolveMethod::BiCgStab;
-    report.method_name = first.iterations > 0 ? "conjugate gradients (indefinite), then BiCGSTAB" : "BiCGSTAB";
-    krylov = bicgstab(map(), diagonal, b, x, stop);
-    for (int& after : krylov.measured_after) after += first.iterations;
-    krylov.measured_after.insert(krylov.measured_after.begin(), first.measured_after.begin(),
-                                 first.measured_after.end());
-    krylov.iterations += first.iterations;
-    krylov.residual_history.insert(krylov.residual_history.begin(), first.residual_history.begin(),
-                                   first.residual_history.end());
+  if (!symmetric_ || !positive || report.indefinite) {
+    report.append(bicgstab(map(), diagonal, b, x, stop), ", then ");
   }
-  report.iterations = krylov.iterations;
-  report.residual_history = krylov.residual_history;
-  report.measured_after = krylov.measured_after;
-  report.converged = krylov.converged;
-  report.seconds = seconds_since(start);
+  report.seconds = watch.seconds();
   return report;
 }
 
 SolveReport FreeBlock::solve_direct(ConstValuesRef targets, Values& x, const StopRule& stop) const {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   SolveReport report;
   report.method = SolveMethod::Direct;
   std::vector<Index> place(static_cast<std::size_t>(size()), -1);
@@ -147,7 +126,7 @@ SolveReport FreeBlock::solve_direct(ConstValuesRef targets, Values& x, const Sto
   report.residual_history = {max_row_norm(masked(Values(targets - matrix_.apply(x))))};
   report.measured_after = {report.iterations};
   report.converged = report.residual_history.back() <= stop.tolerance;
-  report.seconds = seconds_since(start);
+  report.seconds = watch.seconds();
   return report;
 }
 

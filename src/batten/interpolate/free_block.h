@@ -20,8 +20,8 @@ class FreeBlock : public RowSource {
   /// True when the free rows are symmetric after scaling: smooth rows only.
   bool is_symmetric() const { return symmetric_; }
 
-  /// Conjugate gradients where symmetric, else stabilised bi-conjugate gradients; falls back from the first to the
-  /// second where the block turns out indefinite, and from that to the direct solver.
+  /// Conjugate gradients where symmetric, and stabilised bi-conjugate gradients where it is not or turns out to be
+  /// indefinite.
   SolveReport solve_krylov(ConstValuesRef targets, Values& x, const StopRule& stop) const;
 
   /// Sparse Cholesky where symmetric and definite, else LU; one step of iterative refinement. Memory grows with the

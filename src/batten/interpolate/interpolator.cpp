@@ -14,32 +14,15 @@ namespace batten {
 
 namespace {
 
-/// Where tiles cost more than they save: rows of huge faces, or rings that grow too fast.
-constexpr double kMostEntriesPerVertex = 40.0;
-constexpr double kMostOverlap = 6.0;
 /// Chebyshev starts from the spectrum of regular meshes: [1/4, 9/4] on quads, [1/2, 2] on triangles (MATH 3).
 constexpr double kQuadLowerBound = 0.21;
 constexpr double kLoopLowerBound = 0.44;
 /// Below this, conjugate gradients need fewer passes than a fixed polynomial.
 constexpr double kGiveUpBelow = 0.03;
 constexpr double kSingularAlpha = 0.5;
-constexpr double kValenceTwoAlpha = 1.0;
 
 bool is_iteration(SolveMethod method) {
   return method == SolveMethod::Chebyshev || method == SolveMethod::Jacobi || method == SolveMethod::Richardson;
-}
-
-const char* name_of(SolveMethod method) {
-  switch (method) {
-    case SolveMethod::Chebyshev:
-      return "Chebyshev in tiles";
-    case SolveMethod::Jacobi:
-      return "damped Jacobi (Thall)";
-    case SolveMethod::Richardson:
-      return "Richardson (Lai and Cheng)";
-    default:
-      return "conjugate gradients";
-  }
 }
 
 /// The largest absolute value; NaN where any number is.
@@ -54,19 +37,6 @@ double largest_number(ConstValuesRef values) {
         return most;
       },
       larger_or_nan);
-}
-
-/// Puts a second run's report behind a first one's.
-void append(SolveReport& report, const SolveReport& next, const char* joint) {
-  report.method_name += report.method_name.empty() ? next.method_name : joint + next.method_name;
-  report.method = next.method;
-  for (const int after : next.measured_after) report.measured_after.push_back(report.iterations + after);
-  report.iterations += next.iterations;
-  report.seconds += next.seconds;
-  report.converged = next.converged;
-  report.residual_history.insert(report.residual_history.end(), next.residual_history.begin(),
-                                 next.residual_history.end());
-  report.errors = {};  // measured before the values changed again
 }
 
 /// Control points of a system with a solution stay within some hundred diagonals of their targets. Where they have gone
@@ -105,7 +75,8 @@ struct Interpolator::Parts {
     }
     block = std::make_unique<FreeBlock>(matrix, std::move(free));
     if (wants_tiles()) tiles = std::make_unique<TiledIteration>(*block, progress_within(progress, 0.3, 1.0));
-    if (tiles != nullptr && options.method == SolveMethod::Auto && tiles->overlap() > kMostOverlap) tiles.reset();
+    if (tiles != nullptr && options.method == SolveMethod::Auto && tiles->overlap() > TiledIteration::kMostOverlap)
+      tiles.reset();
   }
 
   bool wants_tiles() const {
@@ -113,7 +84,7 @@ struct Interpolator::Parts {
     // Darts and semi-sharp surroundings make the rows unsymmetric, but their spectrum stays so near the real interval
     // that Chebyshev converges all the same; where it does not, BiCGSTAB goes on.
     return options.method == SolveMethod::Auto &&
-           matrix.entry_count() <= kMostEntriesPerVertex * topology.vertex_count();
+           matrix.entry_count() <= TiledIteration::kMostEntriesPerRow * topology.vertex_count();
   }
 
   SolveReport iterate(SolveMethod method, ConstValuesRef targets, Values& x, const StopRule& stop) const {
@@ -122,9 +93,7 @@ struct Interpolator::Parts {
     iteration.omega = options.omega;
     iteration.lower_bound = scheme.kind == SchemeKind::Loop ? kLoopLowerBound : kQuadLowerBound;
     iteration.give_up_below = options.method == SolveMethod::Auto ? kGiveUpBelow : 0.0;
-    SolveReport report = tiles->solve(targets, x, iteration, stop);
-    report.method_name = name_of(method);
-    return report;
+    return tiles->solve(targets, x, iteration, stop);
   }
 
   SolveReport solve_block(ConstValuesRef targets, Values& x, const StopRule& stop) const {
@@ -140,10 +109,10 @@ struct Interpolator::Parts {
       if (report.converged) return report;
       if (!x.allFinite()) x = start;
     }
-    append(report, block->solve_krylov(targets, x, stop), ", then ");
+    report.append(block->solve_krylov(targets, x, stop), ", then ");
     if (!report.converged) {
       x = start;
-      append(report, block->solve_direct(targets, x, stop), ", then ");
+      report.append(block->solve_direct(targets, x, stop), ", then ");
     }
     return report;
   }
@@ -195,7 +164,7 @@ struct Interpolator::Parts {
                          Interpolant& result) {
     const FreeBlock part(a, std::move(free));
     if (part.free_count() == 0) return;
-    append(result.report, part.solve_krylov(targets, result.control, stop), "; ");
+    result.report.append(part.solve_krylov(targets, result.control, stop), "; ");
   }
 
   void solve_with_alpha(const Buffer<std::uint8_t>& vertices, double alpha, ConstValuesRef targets,
@@ -304,7 +273,7 @@ Interpolant Interpolator::solve(ConstValuesRef targets, const Progress& progress
   }
   if (!result.report.converged) parts.rescue_valence_two(targets, stop, result);
   if (!parts.singular.empty()) parts.solve_singular(targets, stop, result);
-  if (result.report.method_name.empty()) result.report.method_name = "none needed";
+  if (result.report.method_name.empty()) result.report.method_name = method_name(SolveMethod::Auto);
   parts.measure(targets, result);
   // Judged by what was measured over all rows, not by what the last of several solvers thought of its part.
   result.report.converged = result.max_error <= stop.tolerance + floor;

@@ -25,6 +25,10 @@ enum class LimitRow : std::uint8_t {
   Special  ///< stored weights: darts, semi-sharp surroundings, smooth triangles
 };
 
+/// With smooth vertices of valence 2 the limit matrix may have negative eigenvalues (MATH 2.2); Lai's alpha = 1 on
+/// their components makes them positive.
+inline constexpr double kValenceTwoAlpha = 1.0;
+
 /// How the rows of a limit matrix are chosen.
 struct LimitOptions {
   LimitMasks masks = LimitMasks::Exact;

@@ -40,16 +40,19 @@ Eigen::RowVectorXd ratios(const Eigen::RowVectorXd& a, const Eigen::RowVectorXd&
   return result;
 }
 
-void measure(KrylovReport& report, double residual) {
-  report.residual_history.push_back(residual);
-  report.measured_after.push_back(report.iterations);
+SolveReport report_of(SolveMethod method) {
+  SolveReport report;
+  report.method = method;
+  report.method_name = method_name(method);
+  return report;
 }
 
 }  // namespace
 
-KrylovReport conjugate_gradients(const LinearMap& a, const Eigen::VectorXd& scale, const Eigen::VectorXd& diagonal,
-                                 const Values& b, Values& x, const StopRule& stop) {
-  KrylovReport report;
+SolveReport conjugate_gradients(const LinearMap& a, const Eigen::VectorXd& scale, const Eigen::VectorXd& diagonal,
+                                const Values& b, Values& x, const StopRule& stop) {
+  const Stopwatch watch;
+  SolveReport report = report_of(SolveMethod::ConjugateGradient);
   const std::ptrdiff_t rows = b.rows();
   Values residual(rows, b.cols());  // unscaled: b - A x
   Values product(rows, b.cols());
@@ -60,7 +63,7 @@ KrylovReport conjugate_gradients(const LinearMap& a, const Eigen::VectorXd& scal
   Values direction(rows, b.cols());
   for_rows(rows, [&](std::ptrdiff_t i) { direction.row(i) = step_weight[i] * residual.row(i); });
   Eigen::RowVectorXd rz = column_dots(residual, residual, &weight);
-  measure(report, max_row_norm(residual));
+  report.measured(max_row_norm(residual));
   while (!(report.residual_history.back() <= stop.tolerance) && report.iterations < stop.max_iterations) {
     a(direction, product);
     ++report.iterations;
@@ -68,7 +71,10 @@ KrylovReport conjugate_gradients(const LinearMap& a, const Eigen::VectorXd& scal
     for (std::ptrdiff_t c = 0; c < rz.size(); ++c) {
       if (rz[c] > 0.0 && !(curvature[c] > 0.0)) report.indefinite = true;
     }
-    if (report.indefinite) return report;
+    if (report.indefinite) {
+      report.method_name += " (indefinite)";
+      break;
+    }
     const Eigen::RowVectorXd alpha = ratios(rz, curvature);
     for_rows(rows, [&](std::ptrdiff_t i) {
       for (std::ptrdiff_t c = 0; c < x.cols(); ++c) {
@@ -84,10 +90,11 @@ KrylovReport conjugate_gradients(const LinearMap& a, const Eigen::VectorXd& scal
         direction(i, c) = step_weight[i] * residual(i, c) + beta[c] * direction(i, c);
       }
     });
-    measure(report, max_row_norm(residual));
+    report.measured(max_row_norm(residual));
     stop.report(report.residual_history.front(), report.residual_history.back());
   }
   report.converged = report.residual_history.back() <= stop.tolerance;
+  report.seconds = watch.seconds();
   return report;
 }
 
@@ -162,20 +169,22 @@ class BiCgStab {
 
 }  // namespace
 
-KrylovReport bicgstab(const LinearMap& a, const Eigen::VectorXd& diagonal, const Values& b, Values& x,
-                      const StopRule& stop) {
+SolveReport bicgstab(const LinearMap& a, const Eigen::VectorXd& diagonal, const Values& b, Values& x,
+                     const StopRule& stop) {
   constexpr int kRestartEvery = 100;
-  KrylovReport report;
+  const Stopwatch watch;
+  SolveReport report = report_of(SolveMethod::BiCgStab);
   BiCgStab solver(a, diagonal, b, x);
-  measure(report, solver.residual_norm());
+  report.measured(solver.residual_norm());
   while (!(report.residual_history.back() <= stop.tolerance) && report.iterations < stop.max_iterations) {
     const bool sound = solver.step();
     report.iterations += 2;
     if (!sound || report.iterations % kRestartEvery == 0) solver.restart();
-    measure(report, solver.residual_norm());
+    report.measured(solver.residual_norm());
     stop.report(report.residual_history.front(), report.residual_history.back());
   }
   report.converged = report.residual_history.back() <= stop.tolerance;
+  report.seconds = watch.seconds();
   return report;
 }
 

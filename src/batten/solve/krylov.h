@@ -6,23 +6,16 @@
 
 namespace batten {
 
-struct KrylovReport {
-  int iterations = 0;
-  std::vector<double> residual_history;
-  std::vector<int> measured_after;  ///< iterations before each entry of residual_history
-  bool converged = false;
-  bool indefinite = false;  ///< conjugate gradients met a direction of no or negative curvature
-};
-
 /// Conjugate gradients on the symmetric system diag(scale) A x = diag(scale) b, preconditioned by its diagonal.
 /// x: the start and the result. scale, diagonal (of diag(scale) A): one entry a row, positive. The stop rule looks at b
-/// - A x. About 10 bytes-passes over the columns an iteration; a column whose residual is zero stays as it is.
-KrylovReport conjugate_gradients(const LinearMap& a, const Eigen::VectorXd& scale, const Eigen::VectorXd& diagonal,
-                                 const Values& b, Values& x, const StopRule& stop);
+/// - A x. Where the matrix turns out indefinite, it stops with report.indefinite set. About 10 bytes-passes over the
+/// columns an iteration; a column whose residual is zero stays as it is.
+SolveReport conjugate_gradients(const LinearMap& a, const Eigen::VectorXd& scale, const Eigen::VectorXd& diagonal,
+                                const Values& b, Values& x, const StopRule& stop);
 
 /// Stabilised bi-conjugate gradients (van der Vorst 1992) with the diagonal of A as right preconditioner: for rows that
 /// are not symmetric, such as darts. Restarts where a column breaks down.
-KrylovReport bicgstab(const LinearMap& a, const Eigen::VectorXd& diagonal, const Values& b, Values& x,
-                      const StopRule& stop);
+SolveReport bicgstab(const LinearMap& a, const Eigen::VectorXd& diagonal, const Values& b, Values& x,
+                     const StopRule& stop);
 
 }  // namespace batten

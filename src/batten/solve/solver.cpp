@@ -24,6 +24,43 @@ void ErrorSummary::add(const ErrorSummary& other) {
   squares = sum;
 }
 
+void SolveReport::measured(double residual) {
+  residual_history.push_back(residual);
+  measured_after.push_back(iterations);
+}
+
+void SolveReport::append(const SolveReport& next, const std::string& joint) {
+  method = next.method;
+  method_name += method_name.empty() ? next.method_name : joint + next.method_name;
+  for (const int after : next.measured_after) measured_after.push_back(iterations + after);
+  residual_history.insert(residual_history.end(), next.residual_history.begin(), next.residual_history.end());
+  iterations += next.iterations;
+  seconds += next.seconds;
+  converged = next.converged;
+  indefinite = next.indefinite;
+  errors = next.errors;  // those of the first run were measured before the values changed again
+}
+
+std::string method_name(SolveMethod method) {
+  switch (method) {
+    case SolveMethod::Auto:
+      return "none needed";
+    case SolveMethod::ConjugateGradient:
+      return "conjugate gradients";
+    case SolveMethod::BiCgStab:
+      return "BiCGSTAB";
+    case SolveMethod::Chebyshev:
+      return "Chebyshev in tiles";
+    case SolveMethod::Jacobi:
+      return "damped Jacobi (Thall)";
+    case SolveMethod::Richardson:
+      return "Richardson (Lai and Cheng)";
+    case SolveMethod::Direct:
+      return "sparse factors";
+  }
+  return {};
+}
+
 void StopRule::report(double first, double now) const {
   if (!progress) return;
   const double whole = std::log(std::max(first, 1e-300) / std::max(tolerance, 1e-300));

@@ -1,5 +1,6 @@
 /// \file The words that the solvers share.
 #pragma once
+#include <chrono>
 #include <functional>
 #include <string>
 #include <vector>
@@ -43,7 +44,25 @@ struct SolveReport {
   std::vector<int> measured_after;         ///< iterations before each entry of residual_history
   double seconds = 0.0;
   bool converged = false;
-  ErrorSummary errors;  ///< of the rows solved for, where the method measures them row by row; else empty
+  bool indefinite = false;  ///< conjugate gradients met a direction of no or negative curvature, and stopped
+  ErrorSummary errors;      ///< of the rows solved for, where the method measures them row by row; else empty
+
+  /// Notes a residual, measured after the iterations so far.
+  void measured(double residual);
+  /// Puts the report of a run that went on from this one's result behind it; `joint` stands between their names.
+  void append(const SolveReport& next, const std::string& joint);
+};
+
+/// The method's name for people, in lower case but for names; "none needed" for Auto, which solves nothing itself.
+std::string method_name(SolveMethod method);
+
+/// Measures the seconds since it was made, for reports.
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 /// When to stop: max_i |residual_i| <= tolerance, or after max_iterations.

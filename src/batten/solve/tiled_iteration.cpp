@@ -1,7 +1,6 @@
 #include "batten/solve/tiled_iteration.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <mutex>
 
@@ -334,9 +333,10 @@ SolveReport TiledIteration::solve(ConstValuesRef b, ValuesRef x, const Iteration
   if (tiles_->tiles.empty() && !tiles_->order.empty()) {
     throw Error(ErrorCode::NotAvailable, "this system has rows too wide for tiles; take conjugate gradients");
   }
-  const auto started = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   SolveReport report;
   report.method = options.method;
+  report.method_name = method_name(options.method);
   report.converged = true;
   // Each group of four columns keeps to its share of a row's allowed length.
   const std::ptrdiff_t groups = (x.cols() + 3) / 4;
@@ -355,7 +355,7 @@ SolveReport TiledIteration::solve(ConstValuesRef b, ValuesRef x, const Iteration
   }
   if (groups == 1) report.errors = summarise(*tiles_, *columns);
   tiles_->give_back(std::move(columns));
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  report.seconds = watch.seconds();
   return report;
 }
 

@@ -52,6 +52,9 @@ struct IterationOptions {
 class TiledIteration {
  public:
   static constexpr int kStepsPerRound = 8;
+  /// Tiles cost more than they save beyond these: rows of huge faces, and rings that grow too fast.
+  static constexpr double kMostEntriesPerRow = 40.0;
+  static constexpr double kMostOverlap = 6.0;
 
   /// Throws Error(Cancelled).
   explicit TiledIteration(const RowSource& rows, const Progress& progress = {});
