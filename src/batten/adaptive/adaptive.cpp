@@ -15,7 +15,7 @@
 #include "batten/adaptive/corner_normals.h"
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
-#include "batten/patch/pieces.h"
+#include "batten/patch/surface_patches.h"
 #include "batten/progress.h"
 #include "batten/refine/refinement.h"
 
@@ -25,18 +25,6 @@ namespace {
 
 /// So many jets at a time: they are large.
 constexpr std::ptrdiff_t kChunk = 1 << 15;
-
-/// Flags of base faces from those of control faces: each is itself, or one child a corner.
-Buffer<std::uint8_t> base_holes(const Topology& control, const Scheme& scheme) {
-  const Buffer<std::uint8_t> holes = surface_holes(control, scheme);
-  if (std::find(holes.begin(), holes.end(), 1) == holes.end()) return {};
-  const bool same = !needs_first_step(control, scheme);
-  Buffer<std::uint8_t> flags;
-  for (Index f = 0; f < control.face_count(); ++f) {
-    flags.insert(flags.end(), static_cast<std::size_t>(same ? 1 : control.face_size(f)), holes[f]);
-  }
-  return flags;
-}
 
 void check(const AdaptiveOptions& options, const Scheme& scheme) {
   const auto bad = [](const std::string& what) { throw Error(ErrorCode::BadArgument, what); };
@@ -76,13 +64,12 @@ class AdaptiveBuilder {
  public:
   AdaptiveBuilder(const Topology& topology, const Scheme& scheme, ConstValuesRef control,
                   const AdaptiveOptions& options)
-      : topology_(topology),
-        scheme_(scheme),
+      : patches_(topology, scheme),
         control_(control),
         options_(options),
-        surface_(is_interpolating(scheme.kind) ? nullptr : std::make_unique<LimitSurface>(topology, scheme, control)),
+        surface_(is_interpolating(scheme.kind) ? nullptr : std::make_unique<LimitSurface>(patches_, control)),
         butterfly_(surface_ != nullptr ? nullptr : std::make_unique<ButterflyPoints>(topology, scheme, control)),
-        forest_(base(), base_holes(topology, scheme)),
+        forest_(base(), patches_.holes()),
         quads_(options.faces == FaceKind::Quads) {
     add_vertices(forest_.vertex_places(), 0);
   }
@@ -104,11 +91,11 @@ class AdaptiveBuilder {
   }
 
  private:
-  const Topology& base() const { return surface_ == nullptr ? topology_ : surface_->base(); }
+  const Topology& base() const { return patches_.base(); }
   void evaluate(std::span<const SurfacePlace> places, Eigen::Ref<Points> points, Eigen::Ref<Points> normals) const;
   void add_vertices(std::span<const SurfacePlace> places, Index first);
   const CellNets& nets() {
-    if (nets_ == nullptr) nets_ = std::make_unique<CellNets>(topology_, scheme_, control_);
+    if (nets_ == nullptr) nets_ = std::make_unique<CellNets>(patches_, control_);
     return *nets_;
   }
   bool base_suffices();
@@ -124,8 +111,7 @@ class AdaptiveBuilder {
   }
   AdaptiveMesh finish();
 
-  const Topology& topology_;
-  const Scheme& scheme_;
+  SurfacePatches patches_;
   const Eigen::Ref<const Values, 0, Eigen::OuterStride<>> control_;
   const AdaptiveOptions& options_;
   std::unique_ptr<LimitSurface> surface_;  ///< one of these two

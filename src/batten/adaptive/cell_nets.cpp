@@ -114,19 +114,8 @@ void halve_quad(const double* from, std::array<CellNet, 4>& children) {
 
 }  // namespace
 
-CellNets::CellNets(const Topology& topology, const Scheme& scheme, ConstValuesRef control)
-    : first_(needs_first_step(topology, scheme) ? std::make_unique<Refinement>(topology, scheme) : nullptr),
-      pieces_(first_ == nullptr ? topology : first_->child(), scheme.after_first_step(), kRingPieceLevels,
-              Pieces::Rest::Rings),
-      steps_(scheme),
-      base_values_(first_ == nullptr ? Values(control) : first_->apply(control)) {
-  values_ = std::make_unique<LevelValues>(pieces_, base_values_);
-  FaceRing ring;
-  for (const Pieces::Configuration& configuration : pieces_.configurations()) {
-    ring.gather(configuration.topology, pieces_.scheme(), 0);
-    kinds_.push_back(steps_.kind_of(configuration.topology, ring));
-  }
-}
+CellNets::CellNets(const SurfacePatches& patches, ConstValuesRef control)
+    : patches_(patches), base_values_(patches.base_values(control)), values_(patches.pieces(), base_values_) {}
 
 void CellNets::root(Index face, CellNet& net) const {
   net.face = face;
@@ -140,31 +129,28 @@ void CellNets::root(Index face, CellNet& net) const {
 void CellNets::find(CellNet& net) const {
   net.kind = CellNet::Kind::Several;
   constexpr double kSide = 1 << kRingPieceLevels;
-  const Piece* piece = pieces_.begin(net.face);
+  const Pieces& pieces = patches_.pieces();
+  const Piece* piece = pieces.begin(net.face);
   const auto x = static_cast<Index>(std::lround(net.u * kSide));
   const auto y = static_cast<Index>(std::lround(net.v * kSide));
-  while (piece != pieces_.end(net.face) && (piece->x != x || piece->y != y || piece->turned != net.turned ||
-                                            piece->size != (1 << (kRingPieceLevels - net.level)))) {
+  while (piece != pieces.end(net.face) && (piece->x != x || piece->y != y || piece->turned != net.turned ||
+                                           piece->size != (1 << (kRingPieceLevels - net.level)))) {
     ++piece;
   }
-  if (piece == pieces_.end(net.face)) return;
+  if (piece == pieces.end(net.face)) return;
   const bool patch = piece->kind == Piece::Kind::Patch;
   net.kind = patch ? CellNet::Kind::Patch : CellNet::Kind::Ring;
-  net.ring = patch ? RingSteps::kPatch : kinds_[piece->configuration];
-  const Index count = patch ? (quads() ? 16 : kTrianglePatchSize)
-                            : pieces_.configurations()[piece->configuration].topology.vertex_count();
-  const Index* rows = pieces_.rows(*piece);
-  ConstValuesRef values = values_->at(piece->level);
-  net.points.resize(count, 3);
-  for (Index i = 0; i < count; ++i) {
-    if (rows[i] != RegularPatch::kMissing) net.points.row(i) = values.row(rows[i]);
+  net.ring = patch ? RingSteps::kPatch : patches_.ring_type(*piece);
+  FaceRing scratch;
+  const std::span<const Index> rows =
+      patch ? std::span(pieces.rows(*piece), static_cast<std::size_t>(patches_.patch_size()))
+            : pieces.ring(*piece, scratch);
+  ConstValuesRef values = values_.at(piece->level);
+  net.points.resize(static_cast<Eigen::Index>(rows.size()), 3);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i] != RegularPatch::kMissing) net.points.row(static_cast<Eigen::Index>(i)) = values.row(rows[i]);
   }
-  if (!patch) return;
-  if (quads()) {
-    complete_quad_patch(rows, net.points.data(), 3);
-  } else {
-    complete_triangle_patch(rows, net.points.data(), 3);
-  }
+  if (patch) complete_patch(quads(), rows.data(), net.points.data(), 3);
 }
 
 void CellNets::children(const CellNet& net, std::array<CellNet, 4>& children) const {
@@ -198,10 +184,10 @@ void CellNets::halve_patch(const CellNet& net, std::array<CellNet, 4>& children)
 
 void CellNets::halve_ring(const CellNet& net, std::array<CellNet, 4>& children) const {
   for (int k = 0; k < 4; ++k) {
-    const RingSteps::Child& step = steps_.child(net.ring, k);
+    const RingSteps::Child& step = patches_.ring_types().child(net.ring, k);
     CellNet& child = children[k];
-    child.ring = step.kind;
-    child.kind = step.kind == RingSteps::kPatch ? CellNet::Kind::Patch : CellNet::Kind::Ring;
+    child.ring = step.type;
+    child.kind = step.type == RingSteps::kPatch ? CellNet::Kind::Patch : CellNet::Kind::Ring;
     child.points.resize(step.rows.count(), 3);
     for (Index r = 0; r < step.rows.count(); ++r) {
       Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
@@ -210,12 +196,8 @@ void CellNets::halve_ring(const CellNet& net, std::array<CellNet, 4>& children) 
       }
       child.points.row(r) = sum;
     }
-    if (step.kind != RingSteps::kPatch) continue;
-    if (quads()) {
-      complete_quad_patch(step.patch.rows.data(), child.points.data(), 3);
-    } else {
-      complete_triangle_patch(step.patch.rows.data(), child.points.data(), 3);
-    }
+    if (step.type != RingSteps::kPatch) continue;
+    complete_patch(quads(), step.patch.rows.data(), child.points.data(), 3);
   }
 }
 

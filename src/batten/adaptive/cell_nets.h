@@ -4,8 +4,7 @@
 #include <vector>
 
 #include "batten/patch/level_values.h"
-#include "batten/patch/pieces.h"
-#include "batten/patch/ring_steps.h"
+#include "batten/patch/surface_patches.h"
 
 namespace batten {
 
@@ -19,7 +18,7 @@ struct CellNet {
   Kind kind = Kind::Several;
   bool turned = false;
   Index face = 0;
-  Index ring = 0;  ///< kind of ring
+  Index ring = 0;  ///< ring type
   int level = 0;
   double u = 0.0;  ///< corner 0, in the base face
   double v = 0.0;
@@ -30,10 +29,10 @@ struct CellNet {
 class CellNets {
  public:
   /// control: V-by-3. O(H).
-  CellNets(const Topology& topology, const Scheme& scheme, ConstValuesRef control);
+  CellNets(const SurfacePatches& patches, ConstValuesRef control);
 
-  const Topology& base() const { return pieces_.topology(0); }
-  bool quads() const { return pieces_.scheme().kind == SchemeKind::CatmullClark; }
+  const Topology& base() const { return patches_.base(); }
+  bool quads() const { return patches_.quads(); }
   void root(Index face, CellNet& net) const;
   /// In a forest's order (adaptive/cell_forest.h).
   void children(const CellNet& net, std::array<CellNet, 4>& children) const;
@@ -45,12 +44,9 @@ class CellNets {
   void halve_patch(const CellNet& net, std::array<CellNet, 4>& children) const;
   void halve_ring(const CellNet& net, std::array<CellNet, 4>& children) const;
 
-  std::unique_ptr<Refinement> first_;  ///< to the base, where the control mesh itself is not
-  Pieces pieces_;
-  RingSteps steps_;
-  Buffer<Index> kinds_;  ///< of each configuration of the pieces
+  SurfacePatches patches_;
   Values base_values_;
-  std::unique_ptr<LevelValues> values_;
+  LevelValues values_;
 };
 
 }  // namespace batten

@@ -227,12 +227,12 @@ void NearestSearch<Net>::search_ring_child(const RingSteps::Child& child, std::s
   const std::size_t own = rings_.size();
   rings_.resize(own + static_cast<std::size_t>(child.rows.count()));
   ring_child_points<Net>(child, &rings_[first], &rings_[own]);
-  if (child.kind == RingSteps::kPatch) {
+  if (child.type == RingSteps::kPatch) {
     std::array<Double4, Net::kPoints> net;
     net_of_spline<Net>(&rings_[own], net.data());
     search_net(net.data(), placement);
   } else {
-    search_ring(child.kind, own, placement);
+    search_ring(child.type, own, placement);
   }
   rings_.resize(own);
 }

@@ -18,14 +18,8 @@ constexpr double kMostBend = 0.3;
 constexpr int kBoundLevels = 2;
 
 template <typename Net>
-void complete_patch(const Index* rows, double* points, int columns);
-template <>
-void complete_patch<QuadNet>(const Index* rows, double* points, int columns) {
-  complete_quad_patch(rows, points, columns);
-}
-template <>
-void complete_patch<TriangleNet>(const Index* rows, double* points, int columns) {
-  complete_triangle_patch(rows, points, columns);
+void complete_net_patch(const Index* rows, double* points, int columns) {
+  complete_patch(std::is_same_v<Net, QuadNet>, rows, points, columns);
 }
 
 Buffer<Double4> vectors_of(ConstValuesRef values) {
@@ -65,9 +59,9 @@ CellShapes<Net>::CellShapes(const Pieces& pieces, RingSteps& steps) {
     regular_[halvings] = {first, static_cast<Index>(shapes_.size()) - first};
   }
   FaceRing ring;
-  for (const Pieces::Configuration& configuration : pieces.configurations()) {
+  for (const Pieces::SharedRing& configuration : pieces.shared_rings()) {
     ring.gather(configuration.topology, pieces.scheme(), 0);
-    const Index kind = steps.kind_of(configuration.topology, ring);
+    const Index kind = steps.type_of(configuration.topology, ring);
     const Index count = configuration.topology.vertex_count();
     Matrix identity{count, count,
                     Buffer<double>(static_cast<std::size_t>(count) * static_cast<std::size_t>(count), 0.0)};
@@ -124,11 +118,11 @@ void CellShapes<Net>::add_ring(const RingSteps& steps, Index kind, const Matrix&
       }
     }
     const Placement at = placement.of(half<Net>(number));
-    if (child.kind != RingSteps::kPatch) {
-      add_ring(steps, child.kind, part, at, levels - 1);
+    if (child.type != RingSteps::kPatch) {
+      add_ring(steps, child.type, part, at, levels - 1);
       continue;
     }
-    complete_patch<Net>(child.patch.rows.data(), part.weights.data(), columns);
+    complete_net_patch<Net>(child.patch.rows.data(), part.weights.data(), columns);
     Matrix net{Net::kPoints, columns, Buffer<double>(static_cast<std::size_t>(Net::kPoints * columns), 0.0)};
     for (Index r = 0; r < Net::kPoints; ++r) {
       for (Index k = 0; k < Net::kSplinePoints; ++k) {
@@ -158,8 +152,8 @@ void ring_child_points(const RingSteps::Child& child, const Double4* ring, Doubl
     for (Index e = rows.starts[r]; e < rows.starts[r + 1]; ++e) sum += rows.weights[e] * ring[rows.columns[e]];
     points[r] = sum;
   }
-  if (child.kind == RingSteps::kPatch)
-    complete_patch<Net>(child.patch.rows.data(), reinterpret_cast<double*>(points), 4);
+  if (child.type == RingSteps::kPatch)
+    complete_net_patch<Net>(child.patch.rows.data(), reinterpret_cast<double*>(points), 4);
 }
 
 template <typename Net>
@@ -205,8 +199,7 @@ void SurfaceCells<Net>::find_values(ConstValuesRef base_values) {
 template <typename Net>
 void SurfaceCells<Net>::gather(const Piece& piece, const Double4& origin, Double4* points) const {
   const bool patch = piece.kind == Piece::Kind::Patch;
-  const Index count =
-      patch ? Net::kSplinePoints : pieces_->configurations()[piece.configuration].topology.vertex_count();
+  const Index count = patch ? Net::kSplinePoints : pieces_->shared_rings()[piece.shared_ring].topology.vertex_count();
   const Index* rows = pieces_->rows(piece);
   const Double4* values = values_[piece.level].data();
   bool complete = true;
@@ -217,7 +210,7 @@ void SurfaceCells<Net>::gather(const Piece& piece, const Double4& origin, Double
       points[i] = values[rows[i]] - origin;
     }
   }
-  if (!complete) complete_patch<Net>(rows, reinterpret_cast<double*>(points), 4);
+  if (!complete) complete_net_patch<Net>(rows, reinterpret_cast<double*>(points), 4);
 }
 
 template <typename Net>
@@ -274,7 +267,7 @@ void SurfaceCells<Net>::choose_cells(const Buffer<std::uint8_t>& holes, const Pr
           } else if (piece.kind == Piece::Kind::Patch) {
             ranges[i] = shapes_->regular(halvings(piece, scratch.data()));
           } else {
-            ranges[i] = shapes_->irregular(piece.configuration);
+            ranges[i] = shapes_->irregular(piece.shared_ring);
           }
         }
       },
@@ -309,8 +302,8 @@ void SurfaceCells<Net>::add_ring_bounds(Index kind, std::vector<Double4>& ring, 
     const RingSteps::Child& child = steps_.child(kind, number);
     std::vector<Double4> points(static_cast<std::size_t>(child.rows.count()));
     ring_child_points<Net>(child, ring.data(), points.data());
-    if (child.kind != RingSteps::kPatch) {
-      add_ring_bounds(child.kind, points, levels - 1, bounds);
+    if (child.type != RingSteps::kPatch) {
+      add_ring_bounds(child.type, points, levels - 1, bounds);
       continue;
     }
     bounds.resize(bounds.size() + Net::kPoints);

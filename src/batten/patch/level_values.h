@@ -2,7 +2,9 @@
 #pragma once
 #include <vector>
 
+#include "batten/double4.h"
 #include "batten/patch/pieces.h"
+#include "batten/patch/surface_patches.h"
 
 namespace batten {
 
@@ -17,5 +19,10 @@ class LevelValues {
   std::vector<Eigen::Ref<const Values, 0, Eigen::OuterStride<>>> refined_;
   std::vector<Values> storage_;
 };
+
+/// Control points for the pieces of all levels, the fourth number zero. control: V-by-3, of control vertices.
+/// Throws Error(BadShape), Error(NotFinite), Error(Cancelled).
+std::vector<Buffer<Double4>> level_points(const SurfacePatches& patches, ConstValuesRef control,
+                                          const Progress& progress = {});
 
 }  // namespace batten

@@ -18,10 +18,12 @@ namespace {
 constexpr int kQuadTurns[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
 constexpr int kTriangleTurns[6][2] = {{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}};
 
-/// A configuration's table costs about as much as refining so many faces.
+/// A ring's table costs about as much as refining so many faces.
 constexpr std::size_t kFewestSharing = 16;
 /// Tables for larger rings would take more memory than they save time.
 constexpr std::size_t kMostRingVertices = 64;
+/// Instead of a place among the rows: a large ring.
+constexpr auto kGathered = static_cast<std::size_t>(-1);
 
 /// The faces, then those that share a vertex with one of them.
 Buffer<Index> with_one_ring(const Topology& topology, const Buffer<Index>& faces) {
@@ -130,7 +132,7 @@ Index Pieces::aligned_corner(const Site& site, Index size, Piece& piece) const {
   return corner;
 }
 
-/// Makes pieces of what needs no more refinement: regular faces, cells, and with `share` frequent configurations.
+/// Makes pieces of what needs no more refinement: regular faces, cells, and with `share` frequent rings.
 /// Returns one flag a face.
 Buffer<std::uint8_t> Pieces::take(int level, const Buffer<Index>& faces, const std::vector<Site>& sites, bool share) {
   const Topology& from = topology(level);
@@ -152,7 +154,7 @@ Buffer<std::uint8_t> Pieces::take(int level, const Buffer<Index>& faces, const s
       const Index corner = aligned_corner(sites[i], Index{1} << (levels_ - level), piece);
       piece.level = static_cast<std::uint8_t>(level);
       piece.half_edge = first + corner;
-      piece.configuration = -1;
+      piece.shared_ring = -1;
       piece.first_row = first_row + row_count * static_cast<std::size_t>(i);
       Index* rows = rows_.data() + piece.first_row;
       taken[i] = 1;
@@ -163,12 +165,12 @@ Buffer<std::uint8_t> Pieces::take(int level, const Buffer<Index>& faces, const s
         piece.kind = Piece::Kind::Patch;
         std::copy_n(patch.rows.begin(), row_count, rows);
       } else {
-        piece.kind = Piece::Kind::Configuration;
+        piece.kind = Piece::Kind::Ring;
         taken[i] = 0;
       }
     }
   });
-  if (share) share_configurations(from, last && !cells ? 1 : kFewestSharing, found, taken);
+  if (share) share_rings(from, last && !cells ? 1 : kFewestSharing, found, taken);
   append_taken(found, taken);
   return taken;
 }
@@ -209,7 +211,7 @@ class Pieces::RingKeys {
               const char* const code = reinterpret_cast<const char*>(quads.code().data());
               add(i, true, {code, sizeof(QuadRing::Code)}, quads, block);
             } else if (ring.gather(from, scheme, half_edge, most)) {
-              add(i, false, ring.key(), ring.vertices(), block);
+              add_ring(i, ring, block);
             }
           }
         },
@@ -222,7 +224,7 @@ class Pieces::RingKeys {
     return {blocks_[i / kBlock].keys.data() + entries_[i].key_start, entries_[i].key_size};
   }
   std::size_t hash(std::ptrdiff_t i) const { return entries_[i].hash; }
-  /// In the order of QuadRing, or else of FaceRing.
+  /// In the order of QuadRing, or else of FaceRing; empty for large rings.
   std::span<const Index> rows(std::ptrdiff_t i) const {
     return std::span<const Index>(blocks_[i / kBlock].rows).subspan(entries_[i].row_start, entries_[i].row_count);
   }
@@ -233,6 +235,7 @@ class Pieces::RingKeys {
   struct Block {
     Buffer<char> keys;
     Buffer<Index> rows;
+    std::ptrdiff_t last_large = -1;
   };
   struct Entry {
     std::size_t key_start = 0;
@@ -255,13 +258,23 @@ class Pieces::RingKeys {
     block.rows.insert(block.rows.end(), rows.begin(), rows.end());
   }
 
+  /// Faces around a vertex of high valence follow each other, and their large rings are equal: one key does for them.
+  void add_ring(std::ptrdiff_t i, const FaceRing& ring, Block& block) {
+    if (ring.vertices().size() <= kMostKeptRing) return add(i, false, ring.key(), ring.vertices(), block);
+    if (block.last_large >= 0 && key(block.last_large) == ring.key()) {
+      entries_[i] = entries_[block.last_large];
+      return;
+    }
+    add(i, false, ring.key(), Buffer<Index>(), block);
+    block.last_large = i;
+  }
+
   Buffer<Entry> entries_;
   std::vector<Block> blocks_;
 };
 
 /// Takes the irregular faces whose surroundings occur at least `fewest` times.
-void Pieces::share_configurations(const Topology& from, std::size_t fewest, Buffer<Piece>& found,
-                                  Buffer<std::uint8_t>& taken) {
+void Pieces::share_rings(const Topology& from, std::size_t fewest, Buffer<Piece>& found, Buffer<std::uint8_t>& taken) {
   Buffer<std::size_t> irregular;
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (taken[i] == 0) irregular.push_back(i);
@@ -269,8 +282,8 @@ void Pieces::share_configurations(const Topology& from, std::size_t fewest, Buff
   const RingKeys rings(from, scheme_, found, irregular, fewest > 1 ? kMostRingVertices : FaceRing::kAnyNumber);
   struct Sharing {
     std::size_t count = 0;
-    std::int32_t configuration = -1;
-    Buffer<std::uint8_t> order;  ///< of a QuadRing's vertices, as the configuration has them
+    std::int32_t number = -1;
+    Buffer<std::uint8_t> order;  ///< of a QuadRing's vertices, as the shared ring has them
   };
   // Equal surroundings go by the number of the first ring that has them.
   const auto hash = [&](std::ptrdiff_t i) { return rings.hash(i); };
@@ -287,14 +300,19 @@ void Pieces::share_configurations(const Topology& from, std::size_t fewest, Buff
     if (sharing == nullptr || sharing->count < fewest) continue;
     Piece& piece = found[irregular[i]];
     const std::span<const Index> rows = rings.rows(i);
-    if (sharing->configuration < 0) {
-      sharing->configuration = static_cast<std::int32_t>(configurations_.size());
+    if (sharing->number < 0) {
+      sharing->number = static_cast<std::int32_t>(shared_rings_.size());
       FaceRing ring;
       ring.gather(from, scheme_, piece.half_edge);
       if (rings.is_quad_ring(i)) sharing->order = places_of(ring.vertices(), rows);
-      configurations_.push_back({cut_out(from, ring.half_edges()).topology, piece.size});
+      shared_rings_.push_back({cut_out(from, ring.half_edges()).topology, piece.size});
     }
-    piece.configuration = sharing->configuration;
+    piece.shared_ring = sharing->number;
+    taken[irregular[i]] = 1;
+    if (rows.empty()) {
+      piece.first_row = kGathered;
+      continue;
+    }
     piece.first_row = rows_.size();
     rows_.resize(piece.first_row + rows.size());
     Index* const to = rows_.data() + piece.first_row;
@@ -303,7 +321,6 @@ void Pieces::share_configurations(const Topology& from, std::size_t fewest, Buff
     } else {
       std::copy(rows.begin(), rows.end(), to);
     }
-    taken[irregular[i]] = 1;
   }
 }
 
@@ -340,6 +357,15 @@ void Pieces::sort_pieces() {
   Buffer<Piece> sorted(pieces_.size());
   for (const Piece& piece : pieces_) sorted[next[piece.face]++] = piece;
   pieces_ = std::move(sorted);
+}
+
+std::span<const Index> Pieces::ring(const Piece& piece, FaceRing& scratch) const {
+  if (piece.first_row != kGathered) {
+    const Index size = shared_rings_[piece.shared_ring].topology.vertex_count();
+    return {rows_.data() + piece.first_row, static_cast<std::size_t>(size)};
+  }
+  scratch.gather(topology(piece.level), scheme_, piece.half_edge);
+  return scratch.vertices();
 }
 
 bool needs_first_step(const Topology& topology, const Scheme& scheme) {

@@ -3,10 +3,11 @@
 /// key NLMD12).
 ///
 /// Only irregular faces and their one-rings are refined, by Refinement: what the rules are is said there alone. Faces
-/// whose surroundings occur often are not refined either: they share a configuration, whose points are the same linear
-/// combinations of the one-ring everywhere.
+/// whose surroundings occur often are not refined either: they share a ring, whose points are the same linear
+/// combinations of its vertices everywhere.
 #pragma once
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "batten/patch/face_ring.h"
@@ -19,13 +20,16 @@ namespace batten {
 /// kinds are few.
 inline constexpr int kRingPieceLevels = 2;
 
+/// Rings of more vertices are gathered anew when they are asked for.
+inline constexpr std::size_t kMostKeptRing = 1024;
+
 /// A part of a face. Coordinates count steps of 1/2^levels of the face, u from its first corner along its first
 /// half-edge. A turned piece (Loop) is the half turn of a triangle: its frame starts at (x, y) and runs backwards.
 struct Piece {
   enum class Kind : std::uint8_t {
-    Patch,          ///< rows: a RegularPatch
-    Configuration,  ///< rows: the one-ring, as many vertices as the configuration's topology has
-    Cell            ///< one step wide; rows: the corners
+    Patch,  ///< rows: a RegularPatch
+    Ring,   ///< the one-ring, as many vertices as the shared ring's topology has
+    Cell    ///< one step wide; rows: the corners
   };
   Index face;
   Index x;
@@ -33,9 +37,9 @@ struct Piece {
   Index size;  ///< of the side, in steps
   Kind kind;
   bool turned;
-  std::uint8_t level;  ///< of the values that the rows belong to
-  std::int32_t configuration;
-  Index half_edge;  ///< its first side in topology(level)
+  std::uint8_t level;        ///< of the values that the rows belong to
+  std::int32_t shared_ring;  ///< of a ring
+  Index half_edge;           ///< its first side in topology(level)
   std::size_t first_row;
 };
 
@@ -45,12 +49,12 @@ class Pieces {
   /// What becomes of faces that are irregular at the last level.
   enum class Rest {
     Cells,  ///< every face of the last level is a cell
-    Rings   ///< configurations, even where nothing shares them
+    Rings   ///< rings, even where nothing shares them
   };
 
   /// Catmull-Clark: base faces are quads, and scheme.alpha is 0. O(H + pieces).
   Pieces(const Topology& base, const Scheme& scheme, int levels, Rest rest = Rest::Cells);
-  /// Of one face only, without configurations.
+  /// Of one face only, without rings.
   Pieces(const Topology& base, const Scheme& scheme, int levels, Index face);
 
   int levels() const { return levels_; }
@@ -59,14 +63,18 @@ class Pieces {
   /// The pieces of a face: they tile it, and stand in an order that does not depend on threads.
   const Piece* begin(Index face) const { return pieces_.data() + first_piece_[face]; }
   const Piece* end(Index face) const { return pieces_.data() + first_piece_[face + 1]; }
+  /// Of a patch or a cell.
   const Index* rows(const Piece& piece) const { return rows_.data() + piece.first_row; }
+  /// The vertices of a ring. Those of large ones are gathered into `scratch`: around a vertex of valence n they would
+  /// be n times 2 n numbers.
+  std::span<const Index> ring(const Piece& piece, FaceRing& scratch) const;
 
   /// The surroundings that several pieces of one size share: its topology has the piece as face 0.
-  struct Configuration {
+  struct SharedRing {
     Topology topology;
     Index size;
   };
-  const std::vector<Configuration>& configurations() const { return configurations_; }
+  const std::vector<SharedRing>& shared_rings() const { return shared_rings_; }
 
   /// The refined neighbourhoods, coarse to fine: level l > 0 has the values refine() makes of those of level l - 1.
   int region_count() const { return static_cast<int>(regions_.size()); }
@@ -92,8 +100,7 @@ class Pieces {
   void build(Buffer<Index> faces, bool share);
   Buffer<std::uint8_t> take(int level, const Buffer<Index>& faces, const std::vector<Site>& sites, bool share);
   void append_taken(const Buffer<Piece>& found, const Buffer<std::uint8_t>& taken);
-  void share_configurations(const Topology& from, std::size_t fewest, Buffer<Piece>& found,
-                            Buffer<std::uint8_t>& taken);
+  void share_rings(const Topology& from, std::size_t fewest, Buffer<Piece>& found, Buffer<std::uint8_t>& taken);
   std::vector<Site> child_sites(const std::vector<Site>& sites, Index size) const;
   Index aligned_corner(const Site& site, Index size, Piece& piece) const;
   void sort_pieces();
@@ -105,7 +112,7 @@ class Pieces {
   Buffer<std::size_t> first_piece_;
   Buffer<Piece> pieces_;
   Buffer<Index> rows_;
-  std::vector<Configuration> configurations_;
+  std::vector<SharedRing> shared_rings_;
   std::vector<std::unique_ptr<Region>> regions_;
 };
 

@@ -137,6 +137,8 @@ void PatchFinder::find_triangle(Index half_edge, RegularPatch& patch) const {
   }
 }
 
+namespace {
+
 template <typename Scalar>
 void complete_quad_patch(const Index* rows, Scalar* points, int columns) {
   const auto reflect = [&](int to, int across, int from) {
@@ -178,9 +180,15 @@ void complete_triangle_patch(const Index* rows, Scalar* points, int columns) {
   }
 }
 
-template void complete_quad_patch(const Index*, float*, int);
-template void complete_quad_patch(const Index*, double*, int);
-template void complete_triangle_patch(const Index*, float*, int);
-template void complete_triangle_patch(const Index*, double*, int);
+}  // namespace
+
+template <typename Scalar>
+void complete_patch(bool quads, const Index* rows, Scalar* points, int columns) {
+  if (quads) return complete_quad_patch(rows, points, columns);
+  complete_triangle_patch(rows, points, columns);
+}
+
+template void complete_patch(bool, const Index*, float*, int);
+template void complete_patch(bool, const Index*, double*, int);
 
 }  // namespace batten

@@ -22,6 +22,7 @@ struct RegularPatch {
 
 inline constexpr int kQuadPatchSize = 16;
 inline constexpr int kTrianglePatchSize = 12;
+constexpr int patch_size(bool quads) { return quads ? kQuadPatchSize : kTrianglePatchSize; }
 inline constexpr std::array<std::array<int, 2>, kTrianglePatchSize> kTriangleLattice{
     {{0, 0}, {1, 0}, {0, 1}, {0, -1}, {1, -1}, {2, -1}, {-1, 0}, {2, 0}, {-1, 1}, {1, 1}, {-1, 2}, {0, 2}}};
 
@@ -60,8 +61,6 @@ class PatchFinder {
 /// Fills in the missing points. rows: a patch's; points: 16 (12) rows of `columns` numbers; those of missing rows are
 /// overwritten.
 template <typename Scalar>
-void complete_quad_patch(const Index* rows, Scalar* points, int columns);
-template <typename Scalar>
-void complete_triangle_patch(const Index* rows, Scalar* points, int columns);
+void complete_patch(bool quads, const Index* rows, Scalar* points, int columns);
 
 }  // namespace batten

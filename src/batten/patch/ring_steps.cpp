@@ -44,7 +44,7 @@ class RowCollector {
 
   /// The points of a patch; those that are missing are rows of their own.
   Buffer<Index> patch(const RegularPatch& patch, bool quads) {
-    const std::size_t count = quads ? kQuadPatchSize : kTrianglePatchSize;
+    const auto count = static_cast<std::size_t>(patch_size(quads));
     Buffer<Index> columns;
     for (std::size_t i = 0; i < count; ++i) {
       const Index row = patch.rows[i];
@@ -68,7 +68,7 @@ class RowCollector {
   /// All points of a patch, on these columns.
   Values completed(const RegularPatch& patch, const Buffer<Index>& columns, bool quads) const {
     const auto width = static_cast<int>(columns.size());
-    const int count = quads ? kQuadPatchSize : kTrianglePatchSize;
+    const int count = patch_size(quads);
     Values points = Values::Zero(count, width);
     for (int i = 0; i < count; ++i) {
       const Index row = patch.rows[i];
@@ -78,11 +78,7 @@ class RowCollector {
         points(i, place) = matrix_.weights[e];
       }
     }
-    if (quads) {
-      complete_quad_patch(patch.rows.data(), points.data(), width);
-    } else {
-      complete_triangle_patch(patch.rows.data(), points.data(), width);
-    }
+    complete_patch(quads, patch.rows.data(), points.data(), width);
     return points;
   }
 
@@ -104,12 +100,12 @@ class RowCollector {
 
 RingSteps::RingSteps(const Scheme& scheme) : scheme_(scheme.after_first_step()) {}
 
-Index RingSteps::kind_of(const Topology& topology, const FaceRing& ring) {
+Index RingSteps::type_of(const Topology& topology, const FaceRing& ring) {
   const auto place = numbers_.find(ring.key());
   if (place != numbers_.end()) return place->second;
-  const auto kind = static_cast<Index>(kinds_.size());
-  numbers_.emplace(ring.key(), kind);
-  kinds_.emplace_back();
+  const auto type = static_cast<Index>(types_.size());
+  numbers_.emplace(ring.key(), type);
+  types_.emplace_back();
   steps_.emplace_back();
   // The face is face 0 of the cutting, and its vertices stand in the ring's order.
   const Cutting cutting = cut_out(topology, ring.half_edges());
@@ -128,21 +124,21 @@ Index RingSteps::kind_of(const Topology& topology, const FaceRing& ring) {
     Child& result = children[c];
     const Index side = quads ? kQuadSides[c] : kTriangleSides[c];
     if (finder.find(side, result.patch)) {
-      result.kind = kPatch;
+      result.type = kPatch;
       step.children[c] = collector.patch(result.patch, quads);
-      result.rows = rows_of(refined, result.patch.rows, quads ? kQuadPatchSize : kTrianglePatchSize);
+      result.rows = rows_of(refined, result.patch.rows, patch_size(quads));
       continue;
     }
     FaceRing own;
     own.gather(child, scheme_, side);
     result.rows = rows_of(refined, own.vertices(), own.vertices().size());
     for (const Index v : own.vertices()) step.children[c].push_back(collector.number_of(v));
-    result.kind = kind_of(child, own);
+    result.type = type_of(child, own);
   }
   step.rows = collector.take();
-  kinds_[kind] = std::move(children);
-  steps_[kind] = std::move(step);
-  return kind;
+  types_[type] = std::move(children);
+  steps_[type] = std::move(step);
+  return type;
 }
 
 }  // namespace batten

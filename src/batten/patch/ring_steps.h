@@ -11,15 +11,15 @@
 
 namespace batten {
 
-/// Kinds of one-rings and their children. A ring of a face has four children; each is a regular patch or a ring again,
-/// for smooth extraordinary vertices, creases and corners the same one from some level on, so that the kinds are few.
+/// Types of one-rings and their children. A ring of a face has four children; each is a regular patch or a ring again,
+/// for smooth extraordinary vertices, creases and corners the same one from some level on, so that the types are few.
 /// Frames stay parallel: u of a child runs as u of the face; a triangle's middle child is turned by half.
 class RingSteps {
  public:
   explicit RingSteps(const Scheme& scheme);
 
   struct Child {
-    Index kind;          ///< of ring, or kPatch
+    Index type;          ///< of ring, or kPatch
     SparseRows rows;     ///< of its ring or patch, on the ring of the face
     RegularPatch patch;  ///< of a patch: where rows stand; RegularPatch::kMissing ones follow by reflection
   };
@@ -32,19 +32,19 @@ class RingSteps {
     std::array<Buffer<Index>, 4> children;  ///< rows of each one's ring, or all 16 (12) of its patch
   };
 
-  /// The kind of a face's surroundings, which `ring` lists; works out its descendants where it is new. Not for faces
+  /// The type of a face's surroundings, which `ring` lists; works out its descendants where it is new. Not for faces
   /// with a regular patch.
-  Index kind_of(const Topology& topology, const FaceRing& ring);
+  Index type_of(const Topology& topology, const FaceRing& ring);
 
   /// Quads: children at the corners in turn. Triangles: at the corners, then the middle.
-  const Child& child(Index kind, int number) const { return kinds_[kind][number]; }
-  Index kind_count() const { return static_cast<Index>(kinds_.size()); }
-  const Step& step(Index kind) const { return steps_[kind]; }
+  const Child& child(Index type, int number) const { return types_[type][number]; }
+  Index type_count() const { return static_cast<Index>(types_.size()); }
+  const Step& step(Index type) const { return steps_[type]; }
 
  private:
   Scheme scheme_;
   std::unordered_map<std::string, Index> numbers_;
-  std::vector<std::vector<Child>> kinds_;
+  std::vector<std::vector<Child>> types_;
   std::vector<Step> steps_;
 };
 

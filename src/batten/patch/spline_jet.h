@@ -18,6 +18,11 @@ void quad_jet_weights(double u, double v, JetWeights& weights);
 /// Twelve weights, in the order of kTriangleLattice. u, v, 1 - u - v >= 0.
 void triangle_jet_weights(double u, double v, JetWeights& weights);
 
+inline void jet_weights(bool quads, double u, double v, JetWeights& weights) {
+  if (quads) return quad_jet_weights(u, v, weights);
+  triangle_jet_weights(u, v, weights);
+}
+
 /// Four cubic basis functions with their derivatives.
 struct CubicJet {
   double value[4], first[4], second[4];
@@ -29,5 +34,9 @@ using PatchJet = std::array<Double4, 6>;
 /// Of control points[rows[i]], without weights in between: along u, then along v.
 void quad_jet(double u, double v, const Double4* points, const Index* rows, PatchJet& jet);
 void triangle_jet(double u, double v, const Double4* points, const Index* rows, PatchJet& jet);
+inline void patch_jet(bool quads, double u, double v, const Double4* points, const Index* rows, PatchJet& jet) {
+  if (quads) return quad_jet(u, v, points, rows, jet);
+  triangle_jet(u, v, points, rows, jet);
+}
 
 }  // namespace batten

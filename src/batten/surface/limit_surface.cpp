@@ -11,7 +11,6 @@
 #include "batten/parallel/parallel.h"
 #include "batten/patch/halving.h"
 #include "batten/patch/level_values.h"
-#include "batten/patch/ring_steps.h"
 #include "batten/patch/spline_jet.h"
 #include "batten/surface/ring_blocks.h"
 #include "batten/surface/ring_descents.h"
@@ -78,65 +77,39 @@ void set_jet(const PatchJet& patch, const Double4& origin, double scale, Jet& je
   jet.regular = true;
 }
 
-Buffer<Double4> with_a_spare_column(ConstValuesRef values) {
-  Buffer<Double4> points(static_cast<std::size_t>(values.rows()));
-  parallel_for(values.rows(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    for (std::ptrdiff_t i = begin; i < end; ++i) points[i] = Double4{values(i, 0), values(i, 1), values(i, 2), 0.0};
-  });
-  return points;
-}
-
 }  // namespace
 
 struct LimitSurface::Parts {
-  Topology control_topology;
-  Scheme scheme;
+  SurfacePatches patches;
   bool quads;
-  std::unique_ptr<Refinement> first;
-  Pieces pieces;
-  RingSteps steps;
-  Buffer<Index> kinds;  ///< of each configuration of the pieces
-  std::unique_ptr<RingBlocks> blocks;
-  std::unique_ptr<RingDescents> descents;
+  const Pieces& pieces;
+  const RingSteps& types;
+  RingBlocks blocks;
+  RingDescents descents;
   int kept_halvings = 0;
   /// Of each piece: where its tree stands in `trees`, or whether points of its patch are missing.
   Buffer<std::size_t> tree_starts;
   std::vector<Buffer<Double4>> points;  ///< of each level of the pieces
   Buffer<Double4> trees;
 
-  Parts(const Topology& topology, const Scheme& scheme_in)
-      : control_topology(topology),
-        scheme(scheme_in),
-        quads(scheme_in.kind == SchemeKind::CatmullClark),
-        first(needs_first_step(topology, scheme_in) ? std::make_unique<Refinement>(topology, scheme_in) : nullptr),
-        pieces(first == nullptr ? topology : first->child(), scheme_in.after_first_step(), kRingPieceLevels,
-               Pieces::Rest::Rings),
-        steps(scheme_in) {
-    FaceRing ring;
-    for (const Pieces::Configuration& configuration : pieces.configurations()) {
-      ring.gather(configuration.topology, pieces.scheme(), 0);
-      kinds.push_back(steps.kind_of(configuration.topology, ring));
-    }
-    blocks = std::make_unique<RingBlocks>(steps, kMostKeptHalvings);
-    descents = std::make_unique<RingDescents>(steps);
+  explicit Parts(const SurfacePatches& patches_in)
+      : patches(patches_in),
+        quads(patches.quads()),
+        pieces(patches.pieces()),
+        types(patches.ring_types()),
+        blocks(types, kMostKeptHalvings),
+        descents(types) {
     lay_out_trees();
   }
 
-  const Topology& base() const { return pieces.topology(0); }
-  std::size_t patch_size() const { return quads ? kQuadPatchSize : kTrianglePatchSize; }
+  const Topology& base() const { return patches.base(); }
+  std::size_t patch_size() const { return static_cast<std::size_t>(patches.patch_size()); }
 
   void lay_out_trees();
-  void set_control(ConstValuesRef control);
+  void set_control(ConstValuesRef control, const Progress& progress);
   void check(const SurfacePlace& place) const { require_place(base(), place); }
   const Piece& locate(const SurfacePlace& place, double& u, double& v) const;
   void set(const SurfacePlace& place, DescentScratch& scratch, Jet& jet) const;
-  void patch_jet(double u, double v, const Double4* from, const Index* rows, PatchJet& jet) const {
-    if (quads) {
-      quad_jet(u, v, from, rows, jet);
-    } else {
-      triangle_jet(u, v, from, rows, jet);
-    }
-  }
   void set_on_open_patch(const Piece& piece, double u, double v, double scale, Jet& jet) const;
   void set_on_ring(const Piece& piece, double u, double v, double scale, DescentScratch& scratch, Jet& jet) const;
   void set_at_vertex(const Piece& piece, double u, double v, Jet& jet) const;
@@ -148,14 +121,14 @@ void LimitSurface::Parts::lay_out_trees() {
   const Piece* begin = pieces.begin(0);
   const Piece* end = base().face_count() == 0 ? begin : pieces.end(base().face_count() - 1);
   const auto most = kKeptPointsPerVertex * static_cast<std::size_t>(base().vertex_count());
-  Buffer<std::size_t> pieces_of_kind(static_cast<std::size_t>(steps.kind_count()), 0);
+  Buffer<std::size_t> pieces_of_type(static_cast<std::size_t>(types.type_count()), 0);
   for (const Piece* piece = begin; piece != end; ++piece) {
-    if (piece->kind != Piece::Kind::Patch) ++pieces_of_kind[kinds[piece->configuration]];
+    if (piece->kind != Piece::Kind::Patch) ++pieces_of_type[patches.ring_type(*piece)];
   }
   for (int depth = 1; depth <= kMostKeptHalvings; ++depth) {
     std::size_t total = 0;
-    for (Index kind = 0; kind < steps.kind_count(); ++kind) {
-      total += pieces_of_kind[kind] * blocks->node(blocks->node_of(kind, depth)).size;
+    for (Index type = 0; type < types.type_count(); ++type) {
+      total += pieces_of_type[type] * blocks.node(blocks.node_of(type, depth)).size;
     }
     if (total > most) break;
     kept_halvings = depth;
@@ -170,33 +143,35 @@ void LimitSurface::Parts::lay_out_trees() {
         tree_starts[piece - begin] = kOpenPatch;
       }
     } else if (kept_halvings > 0) {
-      size += blocks->node(blocks->node_of(kinds[piece->configuration], kept_halvings)).size;
+      size += blocks.node(blocks.node_of(patches.ring_type(*piece), kept_halvings)).size;
     }
   }
   trees.resize(size);
 }
 
-void LimitSurface::Parts::set_control(ConstValuesRef control) {
-  require_vertex_rows(control_topology, control);
-  if (control.cols() != 3) throw Error(ErrorCode::BadShape, "a limit surface has points of three columns");
-  const Values refined = first == nullptr ? Values() : first->apply(control);
-  const LevelValues values = first == nullptr ? LevelValues(pieces, control) : LevelValues(pieces, refined);
-  points.clear();
-  for (int level = 0; level <= pieces.region_count(); ++level) points.push_back(with_a_spare_column(values.at(level)));
-  if (kept_halvings == 0) return;
-  parallel_for(
-      base().face_count(),
-      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-        Buffer<Double4> scratch;
-        for (auto f = static_cast<Index>(begin); f < end; ++f) {
-          for (const Piece* piece = pieces.begin(f); piece != pieces.end(f); ++piece) {
-            if (piece->kind == Piece::Kind::Patch) continue;
-            blocks->fill(blocks->node_of(kinds[piece->configuration], kept_halvings), points[piece->level].data(),
-                         pieces.rows(*piece), Double4{}, &trees[tree_starts[number_of(*piece)]], scratch);
+void LimitSurface::Parts::set_control(ConstValuesRef control, const Progress& progress) {
+  constexpr double kPoints = 0.5;  // of the time
+  std::vector<Buffer<Double4>> level = level_points(patches, control, progress_within(progress, 0.0, kPoints));
+  Buffer<Double4> filled(trees.size());
+  if (kept_halvings > 0) {
+    parallel_for(
+        base().face_count(),
+        [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+          Buffer<Double4> scratch;
+          FaceRing ring;
+          for (auto f = static_cast<Index>(begin); f < end; ++f) {
+            for (const Piece* piece = pieces.begin(f); piece != pieces.end(f); ++piece) {
+              if (piece->kind == Piece::Kind::Patch) continue;
+              blocks.fill(blocks.node_of(patches.ring_type(*piece), kept_halvings), level[piece->level].data(),
+                          pieces.ring(*piece, ring).data(), Double4{}, &filled[tree_starts[number_of(*piece)]],
+                          scratch);
+            }
           }
-        }
-      },
-      256);
+        },
+        256, progress_within(progress, kPoints, 1.0));
+  }
+  points = std::move(level);
+  trees = std::move(filled);
 }
 
 /// The piece that a place lies in; (u, v) become its own parameters.
@@ -238,14 +213,9 @@ void LimitSurface::Parts::set_on_open_patch(const Piece& piece, double u, double
     order[i] = static_cast<Index>(i);
     if (rows[i] != RegularPatch::kMissing) patch[i] = from[rows[i]];
   }
-  auto* numbers = reinterpret_cast<double*>(patch.data());
-  if (quads) {
-    complete_quad_patch(rows, numbers, 4);
-  } else {
-    complete_triangle_patch(rows, numbers, 4);
-  }
+  complete_patch(quads, rows, reinterpret_cast<double*>(patch.data()), 4);
   PatchJet patch_sums;
-  patch_jet(u, v, patch.data(), order.data(), patch_sums);
+  patch_jet(quads, u, v, patch.data(), order.data(), patch_sums);
   set_jet(patch_sums, Double4{}, scale, jet);
 }
 
@@ -254,18 +224,19 @@ void LimitSurface::Parts::set_on_ring(const Piece& piece, double u, double v, do
                                       Jet& jet) const {
   const double first_u = u;
   const double first_v = v;
-  Descent at{kinds[piece.configuration], points[piece.level].data(), pieces.rows(piece), Double4{}};
+  Descent at{patches.ring_type(piece), points[piece.level].data(), pieces.ring(piece, scratch.gathered).data(),
+             Double4{}};
   int halvings = 0;
   if (kept_halvings > 0) {
     const Double4* tree = trees.data() + tree_starts[number_of(piece)];
-    std::int32_t node = blocks->node_of(at.kind, kept_halvings);
+    std::int32_t node = blocks.node_of(at.type, kept_halvings);
     const Approach near = approach(quads, u, v);
-    const std::span<const RingBlocks::Jump> jumps = blocks->jumps(node, near.corner);
+    const std::span<const RingBlocks::Jump> jumps = blocks.jumps(node, near.corner);
     halvings = std::min(near.halvings, static_cast<int>(jumps.size()));
     if (halvings > 0) {
       const RingBlocks::Jump& jump = jumps[halvings - 1];
       scale *= approach_corner(quads, near.corner, halvings, u, v);
-      at = {jump.child.kind, tree + jump.block + 1, jump.child.points, tree[jump.block]};
+      at = {jump.child.type, tree + jump.block + 1, jump.child.points, tree[jump.block]};
       tree += jump.tree;
       node = jump.child.node;
     }
@@ -273,24 +244,24 @@ void LimitSurface::Parts::set_on_ring(const Piece& piece, double u, double v, do
       const Halving step = halve(quads, u, v);
       ++halvings;
       scale *= step.factor;
-      const RingBlocks::Node::Child& child = blocks->node(node).children[step.child];
-      at = {child.kind, tree + 1, child.points, tree[0]};
+      const RingBlocks::Node::Child& child = blocks.node(node).children[step.child];
+      at = {child.type, tree + 1, child.points, tree[0]};
       tree += child.offset;
       node = child.node;
     }
   }
-  while (at.kind != RingSteps::kPatch && halvings < kHalvingsToVertex) {
+  while (at.type != RingSteps::kPatch && halvings < kHalvingsToVertex) {
     const Approach near = approach(quads, u, v);
-    const int to_corner = std::min(near.halvings, descents->most_to_corner(at.kind, near.corner));
+    const int to_corner = std::min(near.halvings, descents.most_to_corner(at.type, near.corner));
     scale *= approach_corner(quads, near.corner, to_corner, u, v);
     const Halving step = halve(quads, u, v);
     scale *= step.factor;
     halvings += to_corner + 1;
-    descents->descend(near.corner, to_corner, step.child, scratch, at);
+    descents.descend(near.corner, to_corner, step.child, scratch, at);
   }
-  if (at.kind != RingSteps::kPatch) return set_at_vertex(piece, first_u, first_v, jet);
+  if (at.type != RingSteps::kPatch) return set_at_vertex(piece, first_u, first_v, jet);
   PatchJet sums;
-  patch_jet(u, v, at.points, at.rows, sums);
+  patch_jet(quads, u, v, at.points, at.rows, sums);
   set_jet(sums, at.origin, scale, jet);
 }
 
@@ -322,7 +293,7 @@ void LimitSurface::Parts::set(const SurfacePlace& place, DescentScratch& scratch
   if (piece.kind != Piece::Kind::Patch) return set_on_ring(piece, u, v, scale, scratch, jet);
   if (tree_starts[number_of(piece)] == kOpenPatch) return set_on_open_patch(piece, u, v, scale, jet);
   PatchJet sums;
-  patch_jet(u, v, points[piece.level].data(), pieces.rows(piece), sums);
+  patch_jet(quads, u, v, points[piece.level].data(), pieces.rows(piece), sums);
   set_jet(sums, Double4{}, scale, jet);
 }
 
@@ -339,16 +310,23 @@ void require_place(const Topology& base, const SurfacePlace& place) {
               "(u, v) = (" + std::to_string(place.u) + ", " + std::to_string(place.v) + ") is not in the face");
 }
 
-LimitSurface::LimitSurface(const Topology& topology, const Scheme& scheme, ConstValuesRef control) {
-  parts_ = std::make_unique<Parts>(topology, scheme);
-  parts_->set_control(control);
+LimitSurface::LimitSurface(const SurfacePatches& patches, ConstValuesRef control, const Progress& progress)
+    : parts_(std::make_unique<Parts>(patches)) {
+  parts_->set_control(control, progress);
 }
+
+LimitSurface::LimitSurface(const Topology& topology, const Scheme& scheme, ConstValuesRef control,
+                           const Progress& progress)
+    : LimitSurface(SurfacePatches(topology, scheme, progress_within(progress, 0.0, 0.3)), control,
+                   progress_within(progress, 0.3, 1.0)) {}
 
 LimitSurface::~LimitSurface() = default;
 LimitSurface::LimitSurface(LimitSurface&&) noexcept = default;
 
-const Topology& LimitSurface::base() const { return parts_->base(); }
-void LimitSurface::set_control(ConstValuesRef control) { parts_->set_control(control); }
+const SurfacePatches& LimitSurface::patches() const { return parts_->patches; }
+void LimitSurface::set_control(ConstValuesRef control, const Progress& progress) {
+  parts_->set_control(control, progress);
+}
 
 Jet LimitSurface::jet(const SurfacePlace& place) const {
   parts_->check(place);

@@ -1,9 +1,8 @@
 /// \file The limit surface as a thing to ask: point, derivatives and curvature anywhere.
 ///
-/// A place is a face of the base and (u, v) in it. The base is the control mesh, or, for Catmull-Clark with faces that
-/// are no quads (or with alpha), its first refinement, whose quad h belongs to corner h of the control mesh
-/// (refine/refinement.h). In a quad u runs from its first corner to its second, v to its fourth, both in [0, 1]; in a
-/// triangle to its second and third, with u + v <= 1. Derivatives are by these.
+/// A place is a face of the base (patch/surface_patches.h) and (u, v) in it. In a quad u runs from its first corner to
+/// its second, v to its fourth, both in [0, 1]; in a triangle to its second and third, with u + v <= 1. Derivatives are
+/// by these.
 ///
 /// Exact everywhere: a face between regular vertices is a polynomial; next to others the face is halved towards the
 /// place until it is, by the subdivision of its one-ring (after Stam 1998, key S98), and at an extraordinary vertex
@@ -12,9 +11,8 @@
 #include <memory>
 #include <span>
 
-#include "batten/mesh/topology.h"
+#include "batten/patch/surface_patches.h"
 #include "batten/patch/surface_place.h"
-#include "batten/scheme/scheme.h"
 
 namespace batten {
 
@@ -48,20 +46,23 @@ PointCurvature curvature_of(const Jet& jet);
 /// tenth of the faces are irregular, two where all are (docs/decisions/008-jets.md).
 class LimitSurface {
  public:
-  /// control: V-by-3. Throws Error(NotTriangles, BadShape).
-  LimitSurface(const Topology& topology, const Scheme& scheme, ConstValuesRef control);
+  /// control: V-by-3. Throws Error(NotTriangles, BadArgument, BadShape, NotFinite, Cancelled).
+  LimitSurface(const SurfacePatches& patches, ConstValuesRef control, const Progress& progress = {});
+  LimitSurface(const Topology& topology, const Scheme& scheme, ConstValuesRef control, const Progress& progress = {});
   ~LimitSurface();
   LimitSurface(LimitSurface&&) noexcept;
 
-  const Topology& base() const;
+  const SurfacePatches& patches() const;
+  const Topology& base() const { return patches().base(); }
 
   /// Throws Error(IndexOutOfRange, BadArgument) for a face or parameters that do not exist.
   Jet jet(const SurfacePlace& place) const;
   /// jets[i] for places[i], threaded. Throws the same, and Error(BadShape) where the sizes differ.
   void jets(std::span<const SurfacePlace> places, std::span<Jet> jets) const;
 
-  /// The same for other control points: connectivity is kept. Throws Error(BadShape).
-  void set_control(ConstValuesRef control);
+  /// The same for other control points: connectivity is kept. Throws Error(BadShape, NotFinite, Cancelled), and then
+  /// changes nothing.
+  void set_control(ConstValuesRef control, const Progress& progress = {});
 
  private:
   struct Parts;

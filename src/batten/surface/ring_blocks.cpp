@@ -2,15 +2,15 @@
 
 namespace batten {
 
-RingBlocks::RingBlocks(const RingSteps& steps, int most_depth) : steps_(steps) {
-  nodes_.resize(static_cast<std::size_t>(steps.kind_count()) * static_cast<std::size_t>(most_depth));
+RingBlocks::RingBlocks(const RingSteps& types, int most_depth) : types_(types) {
+  nodes_.resize(static_cast<std::size_t>(types.type_count()) * static_cast<std::size_t>(most_depth));
   for (int depth = 1; depth <= most_depth; ++depth) {
-    for (Index kind = 0; kind < steps.kind_count(); ++kind) {
-      const RingSteps::Step& step = steps.step(kind);
-      Node& node = nodes_[node_of(kind, depth)];
+    for (Index type = 0; type < types.type_count(); ++type) {
+      const RingSteps::Step& step = types.step(type);
+      Node& node = nodes_[node_of(type, depth)];
       node.size = 1 + static_cast<std::size_t>(step.rows.count());
       for (std::size_t c = 0; c < 4; ++c) {
-        const Index child = steps.child(kind, static_cast<int>(c)).kind;
+        const Index child = types.child(type, static_cast<int>(c)).type;
         Node::Child& result = node.children[c];
         result = {kPatch, child, 0, step.children[c].data()};
         if (child == RingSteps::kPatch) continue;
@@ -25,7 +25,7 @@ RingBlocks::RingBlocks(const RingSteps& steps, int most_depth) : steps_(steps) {
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     for (std::size_t c = 0; c < 4; ++c) {
       Jump jump{nodes_[n].children[c], 0, nodes_[n].children[c].offset};
-      while (jump.child.kind != RingSteps::kPatch) {
+      while (jump.child.type != RingSteps::kPatch) {
         jumps_[4 * n + c].push_back(jump);
         if (jump.child.node < 0) break;
         jump.block = jump.tree;
@@ -36,8 +36,8 @@ RingBlocks::RingBlocks(const RingSteps& steps, int most_depth) : steps_(steps) {
   }
 }
 
-void RingBlocks::centre(Index kind, const Double4* points, const Index* rows, Buffer<Double4>& ring) const {
-  const auto count = static_cast<std::size_t>(steps_.step(kind).ring_size);
+void RingBlocks::centre(Index type, const Double4* points, const Index* rows, Buffer<Double4>& ring) const {
+  const auto count = static_cast<std::size_t>(types_.step(type).ring_size);
   ring.resize(count);
   for (std::size_t i = 0; i < count; ++i) ring[i] = points[rows[i]] - points[rows[0]];
 }
@@ -45,12 +45,12 @@ void RingBlocks::centre(Index kind, const Double4* points, const Index* rows, Bu
 void RingBlocks::fill(std::int32_t number, const Double4* points, const Index* rows, Double4 origin, Double4* tree,
                       Buffer<Double4>& scratch) const {
   const Node& node = nodes_[number];
-  const Index kind = number % steps_.kind_count();
-  const SparseRows& steps = steps_.step(kind).rows;
-  centre(kind, points, rows, scratch);
+  const Index type = number % types_.type_count();
+  const SparseRows& rows_of_step = types_.step(type).rows;
+  centre(type, points, rows, scratch);
   Double4* block = tree + 1;
   tree[0] = origin + points[rows[0]];
-  for (Index r = 0; r < steps.count(); ++r) block[r] = combine(steps, r, scratch.data());
+  for (Index r = 0; r < rows_of_step.count(); ++r) block[r] = combine(rows_of_step, r, scratch.data());
   for (const Node::Child& child : node.children) {
     if (child.node >= 0) fill(child.node, block, child.points, tree[0], tree + child.offset, scratch);
   }

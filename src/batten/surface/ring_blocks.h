@@ -15,14 +15,14 @@ namespace batten {
 /// are rings, one halving less deep.
 class RingBlocks {
  public:
-  /// The steps must outlive it.
-  RingBlocks(const RingSteps& steps, int most_depth);
+  /// The types must outlive it.
+  RingBlocks(const RingSteps& types, int most_depth);
 
   /// A ring from which a tree of some depth starts.
   struct Node {
     struct Child {
       std::int32_t node;     ///< of a ring, or kPatch; kTreeEnds where the child's own tree is not kept
-      std::int32_t kind;     ///< of ring, or RingSteps::kPatch
+      std::int32_t type;     ///< of ring, or RingSteps::kPatch
       std::uint32_t offset;  ///< of its tree in this one
       const Index* points;   ///< of its ring or patch, in this tree's block
     };
@@ -39,7 +39,7 @@ class RingBlocks {
   static constexpr std::int32_t kTreeEnds = -2;
 
   /// depth >= 1.
-  std::int32_t node_of(Index kind, int depth) const { return (depth - 1) * steps_.kind_count() + kind; }
+  std::int32_t node_of(Index type, int depth) const { return (depth - 1) * types_.type_count() + type; }
   const Node& node(std::int32_t number) const { return nodes_[number]; }
 
   /// One jump for each number of halvings to rings, 1 and more.
@@ -51,9 +51,9 @@ class RingBlocks {
 
  private:
   /// The ring as seen from its first point.
-  void centre(Index kind, const Double4* points, const Index* rows, Buffer<Double4>& ring) const;
+  void centre(Index type, const Double4* points, const Index* rows, Buffer<Double4>& ring) const;
 
-  const RingSteps& steps_;
+  const RingSteps& types_;
   Buffer<Node> nodes_;
   std::vector<std::vector<Jump>> jumps_;  ///< of each node, four
 };

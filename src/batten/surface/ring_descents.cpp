@@ -61,10 +61,10 @@ void RowsByFour::apply(const Double4* from, Buffer<Double4>& to) const {
   }
 }
 
-RingDescents::RingDescents(const RingSteps& steps)
-    : steps_(steps), children_(steps.kind_count()), deeper_(children_.size()) {
-  for (Index kind = 0; kind < steps.kind_count(); ++kind) {
-    const RingSteps::Step& step = steps.step(kind);
+RingDescents::RingDescents(const RingSteps& types)
+    : types_(types), children_(types.type_count()), deeper_(children_.size()) {
+  for (Index type = 0; type < types.type_count(); ++type) {
+    const RingSteps::Step& step = types.step(type);
     const auto fill = [&](const SparseRows& points, Children& children) {
       std::size_t most = 0;
       for (int c = 0; c < 4; ++c) {
@@ -73,16 +73,16 @@ RingDescents::RingDescents(const RingSteps& steps)
       }
       return most;
     };
-    const std::size_t weights = fill(step.rows, children_[kind]);
+    const std::size_t weights = fill(step.rows, children_[type]);
     for (int corner = 0; corner < 4; ++corner) {
-      if (steps.child(kind, corner).kind != kind) continue;
+      if (types.child(type, corner).type != type) continue;
       SparseRows power = some_rows(step.rows, step.children[corner]);
       const std::size_t full = static_cast<std::size_t>(power.count()) * static_cast<std::size_t>(step.ring_size);
       for (std::size_t n = 1; n <= kMostToCorner; ++n) {
         // The matrices are full: those of large rings would have more weights than halvings one by one.
         if (full > (n + 1) * weights) break;
         const SparseRows points = product(step.rows, power, step.ring_size);
-        fill(points, deeper_[kind][corner].emplace_back());
+        fill(points, deeper_[type][corner].emplace_back());
         power = some_rows(points, step.children[corner]);
       }
     }
@@ -92,8 +92,8 @@ RingDescents::RingDescents(const RingSteps& steps)
 /// Points are seen from the corner that they shrink to, so that small rings keep their digits.
 void RingDescents::descend(int corner, int halvings, int child, DescentScratch& scratch, Descent& at) const {
   const RowsByFour& rows =
-      (halvings == 0 ? children_[at.kind] : deeper_[at.kind][corner][static_cast<std::size_t>(halvings) - 1])[child];
-  const auto count = static_cast<std::size_t>(steps_.step(at.kind).ring_size);
+      (halvings == 0 ? children_[at.type] : deeper_[at.type][corner][static_cast<std::size_t>(halvings) - 1])[child];
+  const auto count = static_cast<std::size_t>(types_.step(at.type).ring_size);
   const Double4 centre = at.points[at.rows[corner]];
   scratch.centred.resize(count);
   for (std::size_t i = 0; i < count; ++i) scratch.centred[i] = at.points[at.rows[i]] - centre;
@@ -101,7 +101,7 @@ void RingDescents::descend(int corner, int halvings, int child, DescentScratch& 
   for (std::size_t i = scratch.order.size(); i < scratch.ring.size(); ++i) {
     scratch.order.push_back(static_cast<Index>(i));
   }
-  at = {steps_.child(at.kind, child).kind, scratch.ring.data(), scratch.order.data(), at.origin + centre};
+  at = {types_.child(at.type, child).type, scratch.ring.data(), scratch.order.data(), at.origin + centre};
 }
 
 }  // namespace batten

@@ -23,7 +23,7 @@ struct RowsByFour {
 
 /// A ring or patch on the way down: its control points are points[rows[i]], seen from the origin.
 struct Descent {
-  Index kind;
+  Index type;
   const Double4* points;
   const Index* rows;
   Double4 origin;
@@ -34,24 +34,25 @@ struct DescentScratch {
   Buffer<Double4> ring;
   Buffer<Double4> centred;
   Buffer<Index> order;  ///< 0, 1, 2, ...: the rows of a ring that stands in a row
+  FaceRing gathered;    ///< a large ring
 };
 
-/// The matrices of RingSteps and, where a corner's child is a ring of the same kind, of several halvings at once.
+/// The matrices of RingSteps and, where a corner's child is a ring of the same type, of several halvings at once.
 class RingDescents {
  public:
-  /// The steps must outlive it. O(size of the steps).
-  explicit RingDescents(const RingSteps& steps);
+  /// The types must outlive it. O(size of their matrices).
+  explicit RingDescents(const RingSteps& types);
 
   /// So many halvings towards a corner can be had with the one that follows.
-  int most_to_corner(Index kind, int corner) const { return static_cast<int>(deeper_[kind][corner].size()); }
+  int most_to_corner(Index type, int corner) const { return static_cast<int>(deeper_[type][corner].size()); }
   /// Halvings towards a corner, no more than that, then one to a child.
   void descend(int corner, int halvings, int child, DescentScratch& scratch, Descent& at) const;
 
  private:
   using Children = std::array<RowsByFour, 4>;
-  const RingSteps& steps_;
-  std::vector<Children> children_;                            ///< of each kind
-  std::vector<std::array<std::vector<Children>, 4>> deeper_;  ///< of each kind and corner: after one halving, two, ...
+  const RingSteps& types_;
+  std::vector<Children> children_;                            ///< of each type
+  std::vector<std::array<std::vector<Children>, 4>> deeper_;  ///< of each type and corner: after one halving, two, ...
 };
 
 }  // namespace batten

@@ -68,7 +68,7 @@ template <typename Scalar>
 void GridFiller<Scalar>::gather(const Piece& piece, int count, int columns) {
   const auto needed = static_cast<std::size_t>(count) * static_cast<std::size_t>(columns);
   if (control_.size() < needed) control_.resize(needed);
-  const Index* rows = pieces_.rows(piece);
+  const Index* rows = piece.kind == Piece::Kind::Ring ? pieces_.ring(piece, scratch_ring_).data() : pieces_.rows(piece);
   ConstValuesRef values = values_.at(piece.level);
   origin_.resize(static_cast<std::size_t>(columns));
   Index middle = 0;
@@ -82,11 +82,7 @@ void GridFiller<Scalar>::gather(const Piece& piece, int count, int columns) {
     for (int c = 0; c < columns; ++c) control_[i * columns + c] = static_cast<Scalar>(from[c] - origin_[c]);
   }
   if (complete) return;
-  if (quads_) {
-    complete_quad_patch(rows, control_.data(), columns);
-  } else {
-    complete_triangle_patch(rows, control_.data(), columns);
-  }
+  complete_patch(quads_, rows, control_.data(), columns);
 }
 
 template <typename Scalar>
@@ -174,7 +170,7 @@ template <typename Scalar>
 void GridFiller<Scalar>::fill_patch(const Piece& piece, const Tables& tables, PieceGrid<Scalar>& grid) {
   const auto& patch = tables.patch(piece.size);
   if (patch.dense) {
-    fill_points(piece, patch.u.data(), patch.stride, quads_ ? kQuadPatchSize : kTrianglePatchSize, grid);
+    fill_points(piece, patch.u.data(), patch.stride, patch_size(quads_), grid);
   } else {
     fill_quad_patch(piece, patch, grid);
   }
@@ -188,9 +184,8 @@ void GridFiller<Scalar>::fill(Index face, std::span<PieceGrid<Scalar>> grids) {
       for (std::size_t i = 0; i < grids.size(); ++i) fill_cell(*piece, tables_[i]->value(), grids[i]);
       continue;
     }
-    const bool shared = piece->kind == Piece::Kind::Configuration;
-    const int patch_size = quads_ ? kQuadPatchSize : kTrianglePatchSize;
-    const int count = shared ? tables_.front()->ring(piece->configuration).vertices : patch_size;
+    const bool shared = piece->kind == Piece::Kind::Ring;
+    const int count = shared ? tables_.front()->ring(piece->shared_ring).vertices : patch_size(quads_);
     gather(*piece, count, k);
     bool tangents = false;
     for (std::size_t i = 0; i < grids.size(); ++i) {
@@ -200,7 +195,7 @@ void GridFiller<Scalar>::fill(Index face, std::span<PieceGrid<Scalar>> grids) {
         tangents = true;
       }
       if (shared) {
-        const auto& ring = tables.ring(piece->configuration);
+        const auto& ring = tables.ring(piece->shared_ring);
         fill_points(*piece, ring.weights.data(), ring.stride, ring.vertices, grids[i]);
       } else {
         fill_patch(*piece, tables, grids[i]);

@@ -51,6 +51,7 @@ class GridFiller {
   Buffer<Scalar> control_;  ///< rows of k numbers, from the origin
   Buffer<Scalar> origin_;   ///< k numbers to add to sums; zeros for tangents
   Buffer<Scalar> scratch_;
+  FaceRing scratch_ring_;
 };
 
 }  // namespace batten

@@ -69,10 +69,9 @@ typename PieceTables<Scalar>::Patches PieceTables<Scalar>::patches_of(SchemeKind
   return std::make_shared<const std::vector<Patch>>(std::move(patches));
 }
 
-/// The points of the configuration's face 0, once, with the one-ring's unit vectors for values.
+/// The points of the ring's face 0, once, with the one-ring's unit vectors for values.
 template <typename Scalar>
-typename PieceTables<Scalar>::Ring PieceTables<Scalar>::ring_of(const Pieces::Configuration& shared,
-                                                                const Scheme& scheme,
+typename PieceTables<Scalar>::Ring PieceTables<Scalar>::ring_of(const Pieces::SharedRing& shared, const Scheme& scheme,
                                                                 const PieceTables<double>& tables) {
   int levels = 0;
   while ((Index{1} << levels) < shared.size) ++levels;
@@ -101,13 +100,12 @@ template <typename Scalar>
 PieceTables<Scalar>::PieceTables(const Pieces& pieces, TileValue value)
     : value_(value),
       patches_(patches_of(pieces.scheme().kind, pieces.levels(), value)),
-      rings_(pieces.configurations().size()) {
+      rings_(pieces.shared_rings().size()) {
   if (rings_.empty()) return;
   const PieceTables<double> tables(value,
                                    PieceTables<double>::patches_of(pieces.scheme().kind, pieces.levels(), value));
-  parallel_for_each(static_cast<std::ptrdiff_t>(rings_.size()), [&](std::ptrdiff_t i) {
-    rings_[i] = ring_of(pieces.configurations()[i], pieces.scheme(), tables);
-  });
+  parallel_for_each(static_cast<std::ptrdiff_t>(rings_.size()),
+                    [&](std::ptrdiff_t i) { rings_[i] = ring_of(pieces.shared_rings()[i], pieces.scheme(), tables); });
 }
 
 template <typename Scalar>

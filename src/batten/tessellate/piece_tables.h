@@ -1,4 +1,4 @@
-/// \file The weights of a piece's points: for regular patches of every size, and for every shared configuration.
+/// \file The weights of a piece's points: for regular patches of every size, and for every shared ring.
 #pragma once
 #include <memory>
 #include <vector>
@@ -12,7 +12,7 @@ namespace batten {
 inline constexpr std::ptrdiff_t kGridLanes = 32;
 constexpr std::ptrdiff_t padded(std::ptrdiff_t points) { return (points + kGridLanes - 1) / kGridLanes * kGridLanes; }
 
-/// How one kind of value follows from control points, for patches of every size and for every configuration.
+/// How one kind of value follows from control points, for patches of every size and for every shared ring.
 template <typename Scalar>
 class PieceTables {
  public:
@@ -36,17 +36,17 @@ class PieceTables {
     Index vertices;
     Buffer<Scalar> weights;
   };
-  const Ring& ring(std::int32_t configuration) const { return rings_[configuration]; }
+  const Ring& ring(std::int32_t shared_ring) const { return rings_[shared_ring]; }
 
  private:
   template <typename Other>
   friend class PieceTables;
   using Patches = std::shared_ptr<const std::vector<Patch>>;
 
-  /// Of pieces without configurations.
+  /// Of pieces without rings.
   PieceTables(TileValue value, Patches patches) : value_(value), patches_(std::move(patches)) {}
   static Patches patches_of(SchemeKind kind, int levels, TileValue value);
-  static Ring ring_of(const Pieces::Configuration& shared, const Scheme& scheme, const PieceTables<double>& tables);
+  static Ring ring_of(const Pieces::SharedRing& shared, const Scheme& scheme, const PieceTables<double>& tables);
 
   TileValue value_;
   Patches patches_;  ///< of 2^0, 2^1, ... steps a side

@@ -34,21 +34,17 @@ struct TableCache {
 };
 
 struct Tessellator::Parts {
-  Topology control;
-  Scheme scheme;
-  std::unique_ptr<Refinement> first;  ///< to the base, where the control mesh itself is not
+  SurfacePatches patches;
   TessellationLayout layout;
-  Buffer<Index> face_rank;  ///< number of drawn base faces before each; empty: all are drawn
+  Buffer<Index> face_rank;  ///< number of drawn base faces before each, -1 for holes; empty: all are drawn
   Index drawn_faces;
   mutable std::once_flag cut;
   mutable std::unique_ptr<Pieces> cut_pieces;
   mutable std::tuple<TableCache<float>, TableCache<double>> caches;
 
-  Parts(const Topology& topology, const Scheme& scheme_in, int levels)
-      : control(topology),
-        scheme(scheme_in),
-        first(needs_first_step(topology, scheme_in) ? std::make_unique<Refinement>(topology, scheme_in) : nullptr),
-        layout(base(), scheme.kind == SchemeKind::CatmullClark, first == nullptr ? levels : levels - 1),
+  Parts(const SurfacePatches& patches_in, int levels)
+      : patches(patches_in),
+        layout(base(), patches.quads(), patches.has_first_step() ? levels - 1 : levels),
         drawn_faces(base().face_count()) {
     count_drawn_faces();
     const std::int64_t indices = layout.faces_per_face * drawn_faces * (layout.quads ? 4 : 3);
@@ -60,25 +56,23 @@ struct Tessellator::Parts {
     }
   }
 
-  const Topology& base() const { return first == nullptr ? control : first->child(); }
+  const Topology& base() const { return patches.base(); }
+  const Topology& control() const { return patches.topology(); }
+  const Scheme& scheme() const { return patches.scheme(); }
 
   void count_drawn_faces() {
-    const Buffer<std::uint8_t> holes = surface_holes(control, scheme);
-    if (std::find(holes.begin(), holes.end(), 1) == holes.end()) return;
+    const Buffer<std::uint8_t>& holes = patches.holes();
+    if (holes.empty()) return;
     drawn_faces = 0;
-    for (Index f = 0; f < control.face_count(); ++f) {
-      const Index children = first == nullptr ? 1 : control.face_size(f);
-      for (Index c = 0; c < children; ++c) {
-        face_rank.push_back(holes[f] != 0 ? -1 : drawn_faces);
-        drawn_faces += holes[f] != 0 ? 0 : 1;
-      }
+    for (Index f = 0; f < base().face_count(); ++f) {
+      face_rank.push_back(holes[f] != 0 ? -1 : drawn_faces);
+      drawn_faces += holes[f] != 0 ? 0 : 1;
     }
   }
 
   /// Made when first asked for.
   const Pieces& pieces() const {
-    std::call_once(cut,
-                   [&] { cut_pieces = std::make_unique<Pieces>(base(), scheme.after_first_step(), layout.levels); });
+    std::call_once(cut, [&] { cut_pieces = std::make_unique<Pieces>(base(), patches.base_scheme(), layout.levels); });
     return *cut_pieces;
   }
 
@@ -92,7 +86,7 @@ struct Tessellator::Parts {
   }
 
   /// One level by itself: cutting it into pieces takes longer than the rules themselves.
-  bool is_one_step() const { return first == nullptr && layout.levels == 1; }
+  bool is_one_step() const { return !patches.has_first_step() && layout.levels == 1; }
 
   template <typename Scalar>
   void check_output(ConstValuesRef control_values, std::span<Scalar> out, std::span<Scalar> normals) const;
@@ -128,7 +122,7 @@ template <typename Scalar>
 template <typename Scalar>
 void Tessellator::Parts::check_output(ConstValuesRef control_values, std::span<Scalar> out,
                                       std::span<Scalar> normals) const {
-  require_vertex_rows(control, control_values);
+  require_vertex_rows(control(), control_values);
   const std::ptrdiff_t k = control_values.cols();
   const auto wanted = static_cast<std::size_t>(layout.vertices) * static_cast<std::size_t>(k);
   if (out.size() == wanted && (normals.empty() || (k == 3 && normals.size() == wanted))) return;
@@ -141,12 +135,12 @@ void Tessellator::Parts::check_output(ConstValuesRef control_values, std::span<S
 template <typename Scalar>
 void Tessellator::Parts::fill_interpolating(ConstValuesRef control_values, std::span<Scalar> out,
                                             std::span<Scalar> normals) const {
-  if (normals.empty()) return fill_butterfly_grids(base(), scheme, control_values, layout.levels, out.data());
+  if (normals.empty()) return fill_butterfly_grids(base(), scheme(), control_values, layout.levels, out.data());
   Values points(layout.vertices, 3);
-  fill_butterfly_grids(base(), scheme, control_values, layout.levels, points.data());
+  fill_butterfly_grids(base(), scheme(), control_values, layout.levels, points.data());
   const auto rounded = [](double number) { return static_cast<Scalar>(number); };
   std::transform(points.data(), points.data() + points.size(), out.begin(), rounded);
-  const Values exact = butterfly_grid_normals(base(), scheme, points, layout.levels);
+  const Values exact = butterfly_grid_normals(base(), scheme(), points, layout.levels);
   std::transform(exact.data(), exact.data() + exact.size(), normals.begin(), rounded);
 }
 
@@ -155,14 +149,14 @@ void Tessellator::Parts::evaluate(ConstValuesRef control_values, bool limit, std
                                   std::span<Scalar> normals) const {
   check_output(control_values, out, normals);
   if (out.empty()) return;
-  if (is_interpolating(scheme.kind)) return fill_interpolating(control_values, out, normals);
-  if (!limit && is_one_step()) return refine_values(control, scheme, {}, control_values, out.data());
+  if (is_interpolating(scheme().kind)) return fill_interpolating(control_values, out, normals);
+  if (!limit && is_one_step()) return refine_values(control(), scheme(), {}, control_values, out.data());
   const auto k = static_cast<int>(control_values.cols());
   const bool with_normals = !normals.empty();
-  const Values stepped = first == nullptr ? Values() : first->apply(control_values);
+  const Values stepped = patches.has_first_step() ? patches.base_values(control_values) : Values();
   const Eigen::Ref<const Values, 0, Eigen::OuterStride<>> base_values =
-      first == nullptr ? Eigen::Ref<const Values, 0, Eigen::OuterStride<>>(control_values)
-                       : Eigen::Ref<const Values, 0, Eigen::OuterStride<>>(stepped);
+      patches.has_first_step() ? Eigen::Ref<const Values, 0, Eigen::OuterStride<>>(stepped)
+                               : Eigen::Ref<const Values, 0, Eigen::OuterStride<>>(control_values);
   const LevelValues values(pieces(), base_values);
   std::vector<const PieceTables<Scalar>*> kinds{&tables<Scalar>(limit ? TileValue::Limit : TileValue::Refined)};
   if (with_normals) {
@@ -194,13 +188,15 @@ void Tessellator::Parts::evaluate(ConstValuesRef control_values, bool limit, std
   }
 }
 
-Tessellator::Tessellator(const Topology& topology, const Scheme& scheme, int levels) {
+Tessellator::Tessellator(const SurfacePatches& patches, int levels) {
   if (levels < 1 || levels > 15) {
     throw Error(ErrorCode::BadArgument, "a tessellation has 1 to 15 levels, not " + std::to_string(levels));
   }
-  require_triangles(topology, scheme);
-  parts_ = std::make_unique<Parts>(topology, scheme, levels);
+  parts_ = std::make_unique<Parts>(patches, levels);
 }
+
+Tessellator::Tessellator(const Topology& topology, const Scheme& scheme, int levels)
+    : Tessellator(SurfacePatches(topology, scheme), levels) {}
 
 Tessellator::~Tessellator() = default;
 Tessellator::Tessellator(Tessellator&&) noexcept = default;
@@ -252,8 +248,9 @@ void Tessellator::faces(std::span<Index> out) const {
 
 Attribute Tessellator::at_corners(const Attribute& attribute) const {
   const Parts& parts = *parts_;
-  if (parts.first == nullptr) return tessellate_corners(parts.base(), parts.layout, parts.face_rank, attribute);
-  const Attribute stepped = refine_at_corners(parts.control, parts.scheme.kind, attribute);
+  if (!parts.patches.has_first_step())
+    return tessellate_corners(parts.base(), parts.layout, parts.face_rank, attribute);
+  const Attribute stepped = refine_at_corners(parts.control(), parts.scheme().kind, attribute);
   return tessellate_corners(parts.base(), parts.layout, parts.face_rank, stepped);
 }
 

@@ -16,7 +16,7 @@
 
 #include "batten/mesh/mesh.h"
 #include "batten/mesh/topology.h"
-#include "batten/scheme/scheme.h"
+#include "batten/patch/surface_patches.h"
 
 namespace batten {
 
@@ -27,6 +27,7 @@ class Tessellator {
  public:
   /// levels: 1 or more. Throws Error(NotTriangles, BadArgument, TooLarge).
   Tessellator(const Topology& topology, const Scheme& scheme, int levels);
+  Tessellator(const SurfacePatches& patches, int levels);
   ~Tessellator();
   Tessellator(Tessellator&&) noexcept;
 
