@@ -1,7 +1,6 @@
 #include "batten/patch/face_ring.h"
 
 #include <algorithm>
-#include <cstring>
 #include <unordered_map>
 
 #include "batten/refine/vertex_blend.h"
@@ -9,13 +8,6 @@
 namespace batten {
 
 namespace {
-
-template <typename Number>
-void append(std::string& key, Number number) {
-  char bytes[sizeof(Number)];
-  std::memcpy(bytes, &number, sizeof(Number));
-  key.append(bytes, sizeof(Number));
-}
 
 /// Old numbers to new ones, -1 where there is none: a table, or a hash where few of many are asked for.
 class Renumbering {
@@ -46,23 +38,38 @@ class Renumbering {
 
 void Numbering::clear() {
   things_.clear();
-  numbers_.clear();
+  slots_.clear();
+}
+
+/// The slot of a thing, or the empty one where it would stand.
+std::size_t Numbering::slot_of(Index thing) const {
+  constexpr std::uint64_t kSpread = 0x9E3779B97F4A7C15;  // 2^64 over the golden ratio
+  constexpr int kHighBits = 32;
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t slot = static_cast<std::size_t>(static_cast<std::uint64_t>(thing) * kSpread >> kHighBits) & mask;
+  while (slots_[slot] >= 0 && things_[slots_[slot]] != thing) slot = (slot + 1) & mask;
+  return slot;
+}
+
+void Numbering::grow() {
+  slots_.assign(std::max<std::size_t>(4 * kMostSearched, 4 * slots_.size()), -1);
+  while ((slots_.size() & (slots_.size() - 1)) != 0) slots_.push_back(-1);
+  for (std::size_t i = 0; i < things_.size(); ++i) slots_[slot_of(things_[i])] = static_cast<Index>(i);
 }
 
 Index Numbering::number(Index thing) {
   const auto next = static_cast<Index>(things_.size());
   if (things_.size() < kMostSearched) {
-    const auto place = std::find(things_.begin(), things_.end(), thing);
-    if (place != things_.end()) return static_cast<Index>(place - things_.begin());
-    things_.push_back(thing);
-    return next;
+    const auto place = static_cast<Index>(std::find(things_.begin(), things_.end(), thing) - things_.begin());
+    if (place == next) things_.push_back(thing);
+    return place;
   }
-  if (numbers_.empty()) {
-    for (Index i = 0; i < next; ++i) numbers_.emplace(things_[i], i);
-  }
-  const auto [place, is_new] = numbers_.emplace(thing, next);
-  if (is_new) things_.push_back(thing);
-  return place->second;
+  if (slots_.empty() || 2 * things_.size() >= slots_.size()) grow();
+  const std::size_t slot = slot_of(thing);
+  if (slots_[slot] >= 0) return slots_[slot];
+  slots_[slot] = next;
+  things_.push_back(thing);
+  return next;
 }
 
 void FaceRing::add_face(const Topology& topology, Index half_edge) {
@@ -72,7 +79,7 @@ void FaceRing::add_face(const Topology& topology, Index half_edge) {
   starts_.push_back(half_edge);
   Index h = half_edge;
   for (Index c = 0; c < topology.face_size(face); ++c, h = topology.next(h)) {
-    append(key_, vertices_.number(topology.origin(h)));
+    append_bytes(key_, vertices_.number(topology.origin(h)));
   }
 }
 
@@ -80,7 +87,7 @@ void FaceRing::add_face(const Topology& topology, Index half_edge) {
 bool FaceRing::add_fan(const Topology& topology, Index half_edge, std::size_t most) {
   const auto add_edge = [&](Index edge_half_edge, Index far) {
     const float sharpness = topology.edge_sharpness(topology.edge(edge_half_edge));
-    append(key_, sharpness);
+    append_bytes(key_, sharpness);
     if (is_semi_sharp(sharpness)) far_ends_.push_back(far);
   };
   Index h = half_edge;
@@ -115,7 +122,7 @@ bool FaceRing::gather(const Topology& topology, const Scheme& scheme, Index half
   const Index size = topology.face_size(topology.face(half_edge));
   Index side = half_edge;
   for (Index c = 0; c < size; ++c, side = topology.next(side)) {
-    append(key_, vertex_sharpness(topology, scheme, topology.origin(side)));
+    append_bytes(key_, vertex_sharpness(topology, scheme, topology.origin(side)));
     if (!add_fan(topology, side, most)) return false;
   }
   if (scheme.crease_method == CreaseMethod::Uniform) return true;

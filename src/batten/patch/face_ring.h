@@ -1,14 +1,15 @@
 /// \file A face with its one-ring, cut out and described so that equal surroundings are recognised.
 #pragma once
+#include <cstring>
 #include <string>
-#include <unordered_map>
 
 #include "batten/mesh/topology.h"
 #include "batten/scheme/scheme.h"
 
 namespace batten {
 
-/// Numbers things by the order in which they come. A list that is searched through, and a hash table once it is long.
+/// Numbers things that are not negative by the order in which they come. A list that is searched through, and a hash
+/// table once it is long.
 class Numbering {
  public:
   void clear();
@@ -17,11 +18,22 @@ class Numbering {
   const Buffer<Index>& things() const { return things_; }
 
  private:
-  static constexpr std::size_t kMostSearched = 64;
+  static constexpr std::size_t kMostSearched = 48;
+
+  std::size_t slot_of(Index thing) const;
+  void grow();
 
   Buffer<Index> things_;
-  std::unordered_map<Index, Index> numbers_;
+  Buffer<Index> slots_;  ///< numbers, -1 where there is none; as many as a power of two, or none
 };
+
+/// Appends a number to a key.
+template <typename Number>
+void append_bytes(std::string& key, Number number) {
+  char bytes[sizeof(Number)];
+  std::memcpy(bytes, &number, sizeof(Number));
+  key.append(bytes, sizeof(Number));
+}
 
 /// Lists the one-ring of a face, from one of its half-edges on, in an order that depends on the surroundings alone.
 /// Under Chaikin's rule also the faces around the far ends of semi-sharp edges that leave the face. O(ring).

@@ -9,6 +9,7 @@
 
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
+#include "batten/patch/pole_keys.h"
 #include "batten/patch/quad_ring.h"
 
 namespace batten {
@@ -28,13 +29,17 @@ constexpr auto kGathered = static_cast<std::size_t>(-1);
 /// The faces, then those that share a vertex with one of them.
 Buffer<Index> with_one_ring(const Topology& topology, const Buffer<Index>& faces) {
   Buffer<std::uint8_t> taken(static_cast<std::size_t>(topology.face_count()), 0);
+  Buffer<std::uint8_t> met(static_cast<std::size_t>(topology.vertex_count()), 0);
   for (const Index f : faces) taken[f] = 1;
   Buffer<Index> all;
   all.reserve(2 * faces.size());
   all = faces;
   for (const Index f : faces) {
     for (Index h = topology.face_begin(f); h < topology.face_end(f); ++h) {
-      topology.for_each_outgoing(topology.origin(h), [&](Index out) {
+      const Index v = topology.origin(h);
+      if (met[v] != 0) continue;
+      met[v] = 1;
+      topology.for_each_outgoing(v, [&](Index out) {
         const Index neighbour = topology.face(out);
         if (taken[neighbour] != 0) return;
         taken[neighbour] = 1;
@@ -199,19 +204,25 @@ class Pieces::RingKeys {
            std::size_t most)
       : entries_(which.size()), blocks_(static_cast<std::size_t>(block_count(count(), kBlock))) {
     const SharpnessCodes codes(from);
+    const PoleKeys poles(from);
+    const bool large = most == FaceRing::kAnyNumber;
     parallel_for(
         count(),
         [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
           QuadRing quads(from, scheme, codes);
           FaceRing ring;
+          std::string key;
           Block& block = blocks_[begin / kBlock];
           for (std::ptrdiff_t i = begin; i < end; ++i) {
             const Index half_edge = found[which[i]].half_edge;
             if (quads.gather(half_edge)) {
               const char* const code = reinterpret_cast<const char*>(quads.code().data());
               add(i, true, {code, sizeof(QuadRing::Code)}, quads, block);
+            } else if (large && poles.find(half_edge, key)) {
+              add(i, false, key, Buffer<Index>(), block);
             } else if (ring.gather(from, scheme, half_edge, most)) {
-              add_ring(i, ring, block);
+              add(i, false, ring.key(), ring.vertices().size() > kMostKeptRing ? Buffer<Index>() : ring.vertices(),
+                  block);
             }
           }
         },
@@ -235,7 +246,6 @@ class Pieces::RingKeys {
   struct Block {
     Buffer<char> keys;
     Buffer<Index> rows;
-    std::ptrdiff_t last_large = -1;
   };
   struct Entry {
     std::size_t key_start = 0;
@@ -256,17 +266,6 @@ class Pieces::RingKeys {
                    quad};
     block.keys.insert(block.keys.end(), key.begin(), key.end());
     block.rows.insert(block.rows.end(), rows.begin(), rows.end());
-  }
-
-  /// Faces around a vertex of high valence follow each other, and their large rings are equal: one key does for them.
-  void add_ring(std::ptrdiff_t i, const FaceRing& ring, Block& block) {
-    if (ring.vertices().size() <= kMostKeptRing) return add(i, false, ring.key(), ring.vertices(), block);
-    if (block.last_large >= 0 && key(block.last_large) == ring.key()) {
-      entries_[i] = entries_[block.last_large];
-      return;
-    }
-    add(i, false, ring.key(), Buffer<Index>(), block);
-    block.last_large = i;
   }
 
   Buffer<Entry> entries_;

@@ -142,8 +142,11 @@ void GridFiller<Scalar>::fill_points(const Piece& piece, const Scalar* weights, 
   }
 }
 
+/// Beyond so many faces at a vertex its limit position is kept for the next cell.
+constexpr Index kManyFaces = 16;
+
 template <typename Scalar>
-void GridFiller<Scalar>::fill_cell(const Piece& piece, TileValue value, PieceGrid<Scalar>& grid) const {
+void GridFiller<Scalar>::fill_cell(const Piece& piece, TileValue value, PieceGrid<Scalar>& grid) {
   static constexpr int kQuad[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   static constexpr int kTriangle[3][2] = {{0, 0}, {1, 0}, {0, 1}};
   const int sign = piece.turned ? -1 : 1;
@@ -156,11 +159,18 @@ void GridFiller<Scalar>::fill_cell(const Piece& piece, TileValue value, PieceGri
     const std::ptrdiff_t place = grid.place(piece.x + sign * step[0], piece.y + sign * step[1]);
     if (value == TileValue::Refined) {
       for (int c = 0; c < grid.columns; ++c) grid.plane(c)[place] = static_cast<Scalar>(values(rows[corner], c));
+    } else if (value == TileValue::Limit && piece.level == last_level_ && rows[corner] == last_vertex_) {
+      for (int c = 0; c < grid.columns; ++c) grid.plane(c)[place] = static_cast<Scalar>(last_limit_[c]);
     } else {
       Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(grid.columns);
       visit_vertex_limit(topology, pieces_.scheme(), value, half_edge,
                          [&](Index vertex, double weight) { sum += weight * values.row(vertex); });
       for (int c = 0; c < grid.columns; ++c) grid.plane(c)[place] = static_cast<Scalar>(sum[c]);
+      if (value == TileValue::Limit && pieces_.topology(piece.level).vertex_face_count(rows[corner]) > kManyFaces) {
+        last_level_ = piece.level;
+        last_vertex_ = rows[corner];
+        last_limit_ = sum;
+      }
     }
     half_edge = topology.next(half_edge);
   }

@@ -42,7 +42,7 @@ class GridFiller {
   void fill_quad_patch(const Piece& piece, const typename Tables::Patch& patch, PieceGrid<Scalar>& grid);
   void fill_points(const Piece& piece, const Scalar* weights, std::ptrdiff_t stride, int count,
                    PieceGrid<Scalar>& grid);
-  void fill_cell(const Piece& piece, TileValue value, PieceGrid<Scalar>& grid) const;
+  void fill_cell(const Piece& piece, TileValue value, PieceGrid<Scalar>& grid);
 
   const Pieces& pieces_;
   std::span<const Tables* const> tables_;
@@ -52,6 +52,10 @@ class GridFiller {
   Buffer<Scalar> origin_;   ///< k numbers to add to sums; zeros for tangents
   Buffer<Scalar> scratch_;
   FaceRing scratch_ring_;
+  /// The limit position that was summed last: many cells in a row share a vertex of high valence.
+  int last_level_ = -1;
+  Index last_vertex_ = -1;
+  Eigen::RowVectorXd last_limit_;
 };
 
 }  // namespace batten
