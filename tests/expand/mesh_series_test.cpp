@@ -107,7 +107,7 @@ TEST(MeshSeries, SmoothsEachModeByItsGain) {
   }
 }
 
-/// MATH 2.3: the limit of ever more passes is the weighted centroid, not the mean.
+/// docs/mathematics.md, The mesh series: the limit of ever more passes is the weighted centroid, not the mean.
 TEST(MeshSeries, ComesToTheWeightedCentroid) {
   for (const Mesh& mesh : {test::bipyramid(24), test::random_hull(20, 2)}) {
     const Topology topology(mesh);

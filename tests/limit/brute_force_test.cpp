@@ -86,7 +86,7 @@ TEST(LimitByRefinement, MatrixAndRowsAndApplicationAgree) {
   });
 }
 
-/// Where the exact tangents exist: everywhere but at creases and boundaries of more faces than the bound (MATH 4.3),
+/// Where the exact tangents exist: everywhere but at creases and boundaries of more faces than the bound (docs/mathematics.md, Limit tangents),
 /// and at interior vertices of valence 2.
 bool has_exact_tangents(const Topology& topology, const Scheme& scheme, Index vertex) {
   VertexRing ring;

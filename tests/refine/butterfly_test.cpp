@@ -85,7 +85,7 @@ TEST(Butterfly, ReproducesCubicsOnTheRegularGrid) {
   }
   EXPECT_LT(worst_error(lattice(8, 8), kPlain, cubic, inside), kTolerance);
   const auto quartic = [](double x, double) { return x * x * x * x; };
-  EXPECT_GT(worst_error(lattice(8, 8), kModified, quartic, inside), 0.1);  // MATH 5: 0.56
+  EXPECT_GT(worst_error(lattice(8, 8), kModified, quartic, inside), 0.1);  // measured: 0.56
 }
 
 TEST(Butterfly, CreaseRulesReproduceQuadraticsBesideAStraightBoundary) {

@@ -50,7 +50,7 @@ TEST(ButterflyMasks, AreTheSameByDefault) {
   EXPECT_EQ(butterfly_mask(plain).beyond, butterfly_mask(modified).beyond);
 }
 
-/// MATH 5: on the ring of unit edges 1, x, y, x^2 + y^2, x^2 - y^2 and xy take the value of the edge's middle; K = 3
+/// docs/mathematics.md, Butterfly: on the ring of unit edges 1, x, y, x^2 + y^2, x^2 - y^2 and xy take the value of the edge's middle; K = 3
 /// has no room for the last two.
 TEST(ButterflyMasks, ExtraordinaryRingsReproduceQuadratics) {
   const std::vector<Function> functions{[](double, double) { return 1.0; },
@@ -70,7 +70,7 @@ TEST(ButterflyMasks, ExtraordinaryRingsReproduceQuadratics) {
   EXPECT_NEAR(std::abs(wrong), 0.25, kTolerance);  // the paper's "some second degree polynomials"
 }
 
-/// MATH 5's spectra of the ring's subdivision matrix.
+/// The spectra of the ring's subdivision matrix.
 TEST(ButterflyMasks, RingsHaveTheEigenvaluesOfTheNote) {
   for (int n = 3; n <= 12; ++n) {
     const RingMask mask = extraordinary_mask(n);
@@ -106,7 +106,7 @@ TEST(ButterflyMasks, CreaseRingsReproduceLinearFunctionsAndOneQuadratic) {
   }
 }
 
-/// As v = (0, 0), x = (0, 1) of a lattice with a boundary along (1, 0) (MATH 5).
+/// As v = (0, 0), x = (0, 1) of a lattice with a boundary along (1, 0) (docs/mathematics.md, Butterfly).
 TEST(ButterflyMasks, BoundaryStencilsReproduceQuadratics) {
   const std::vector<Function> functions{
       [](double, double) { return 1.0; },       [](double x, double) { return x; },

@@ -15,7 +15,7 @@ const double kRoot17 = std::sqrt(17.0);
 constexpr double kTolerance = 1e-13;
 
 /// A ring as a vector: v, e_0 .. e_{edges-1}, then, for Catmull-Clark, f_0 .. f_{faces-1}. The rows below are written
-/// from the rules as they are printed (MATH 1, 3, 4.1), without the library's masks.
+/// from the rules as they are printed (docs/mathematics.md, Refinement rules), without the library's masks.
 struct Ring {
   SchemeKind kind;
   int edges;
@@ -152,7 +152,7 @@ INSTANTIATE_TEST_SUITE_P(Masks, Alpha,
                          ::testing::Combine(::testing::Values(SchemeKind::CatmullClark), ::testing::Range(3, 13)),
                          ring_name);
 
-/// Alpha acts in the first step only: the mask is the ordinary limit of the ring after that step (MATH 2.1).
+/// Alpha acts in the first step only: the mask is the ordinary limit of the ring after that step (docs/mathematics.md, Limit positions).
 TEST_P(Alpha, LimitMaskIsTheOrdinaryOneAfterOneStepWithAlpha) {
   for (const double alpha : {0.25, 0.5, 1.0}) {
     const double n = valence();
@@ -222,7 +222,7 @@ TEST_P(CreaseVertex, CrossTangentPointsInwardSoThatTheNormalPointsOutward) {
   }
 }
 
-// Tables (MATH 1.2 and 4.3).
+// Tables (docs/mathematics.md, Limit tangents).
 
 TEST(Masks, EigenvaluesOfCatmullClarkAreThoseOfTheTable) {
   const std::vector<std::pair<int, double>> table{{3, 0.4100970508},  {4, 0.5},          {5, 0.5499883545},

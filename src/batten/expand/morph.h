@@ -1,5 +1,5 @@
 /// \file From one shape to another of the same connectivity, overall shape and detail at their own times (Lai and Cheng
-/// 2006, key LC06, section 7; MATH 2.3).
+/// 2006, key LC06, section 7; docs/mathematics.md, The mesh series).
 #pragma once
 #include <vector>
 

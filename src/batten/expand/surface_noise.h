@@ -1,4 +1,4 @@
-/// \file Noise on a subdivision surface (key LC06, section 5; MATH 2.4).
+/// \file Noise on a subdivision surface (key LC06, section 5; docs/mathematics.md, Errata).
 ///
 /// Each octave takes random numbers at the vertices of one level of refinement and interpolates them: control values
 /// whose limit passes through the numbers. Those are refined on to the finest level and added there, so the noise is as

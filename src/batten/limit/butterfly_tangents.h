@@ -1,7 +1,7 @@
 /// \file Limit tangents of the Butterflies, as weights on two rings around a vertex.
 ///
 /// Around a vertex whose neighbours are regular one step of refinement takes the two rings to those of the next level,
-/// by a fixed matrix S. Limit tangents are its left eigenvectors (MATH 5): in closed form where Modified Butterfly has
+/// by a fixed matrix S. Limit tangents are its left eigenvectors (docs/mathematics.md, Butterfly): in closed form where Modified Butterfly has
 /// one, else by iterating y = S^T y, with the matrix made by the rules themselves.
 #pragma once
 #include <map>

@@ -12,7 +12,7 @@
 namespace batten {
 
 /// What decides how a ring refines. In masks, `faces` are the quad corners f_j; a face of another size acts through
-/// f_j := 4 c_j - v - e_j - e_{j+1} with its centroid c_j (Thall's R, MATH 1.1).
+/// f_j := 4 c_j - v - e_j - e_{j+1} with its centroid c_j (docs/mathematics.md, Notation).
 struct RingRules {
   SchemeKind kind = SchemeKind::CatmullClark;
   CreaseMethod crease_method = CreaseMethod::Uniform;

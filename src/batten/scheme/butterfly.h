@@ -3,7 +3,8 @@
 ///
 /// Both make one new point an edge and keep the old ones. Around the edge v1 v2: the opposite vertices of its two
 /// triangles, the wings across the triangles' other four sides, and the vertices beyond v1 and v2 in line with it.
-/// Rules at boundaries after the notes of Zorin and Schroeder's course (key ZS00), as MATH 5 has them corrected.
+/// Rules at boundaries after the notes of Zorin and Schroeder's course (key ZS00), corrected as in
+/// docs/mathematics.md, Butterfly.
 #pragma once
 #include <vector>
 
@@ -43,7 +44,7 @@ RingMask extraordinary_mask(int valence);
 /// weights of the vertex and of e_0 (the leading sharp edge) to e_k. Exact for 1, x, y on the ring of unit edges.
 RingMask crease_vertex_mask(int triangles, int edge);
 
-/// An edge with one wing missing, at v across side A (MATH 5, "regular crease vertex"); x is the other end. Exact for
+/// An edge with one wing missing, at v across side A (docs/mathematics.md, Butterfly); x is the other end. Exact for
 /// quadratics.
 struct OneWingMissing {
   double v = 6.0 / 16.0;

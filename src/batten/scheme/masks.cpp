@@ -53,7 +53,7 @@ RingMask opensubdiv_cross(SchemeKind kind, int k) {
   return mask;
 }
 
-/// The left eigenvector of the refined rules' ring matrix (MATH 4.3); k >= 2.
+/// The left eigenvector of the refined rules' ring matrix (docs/mathematics.md, Limit tangents); k >= 2.
 RingMask exact_cross(SchemeKind kind, int k) {
   RingMask mask = zero_ring(k + 1, k);
   const double theta = pi / k;

@@ -2,8 +2,8 @@
 ///
 /// A smooth mask around a vertex of valence n has a weight for the vertex, one for each edge neighbour e_j, and one for
 /// each face: for Catmull-Clark the face's centroid (refinement, limit position) or its quad corner f_j between e_j and
-/// e_{j+1} (tangents). Loop has no face weights. Formulas: MATH 1.1, 1.2, 2.1, 3, 4.3 in the project's note; sources
-/// Catmull-Clark 1978, Loop 1987, Halstead-Kass-DeRose 1993 (keys in docs/references.bib).
+/// e_{j+1} (tangents). Loop has no face weights. docs/mathematics.md has the
+/// formulas and their sources.
 #pragma once
 #include <vector>
 
