@@ -9,16 +9,13 @@
 #include "batten/mesh/primitives.h"
 #include "batten/mesh/triangulate.h"
 #include "batten/tessellate/tessellator.h"
+#include "support/schemes.h"
 #include "support/shapes.h"
 
 namespace batten {
 namespace {
 
-Scheme modified_butterfly() {
-  Scheme scheme;
-  scheme.kind = SchemeKind::ModifiedButterfly;
-  return scheme;
-}
+const Scheme kModified = test::scheme_of(SchemeKind::ModifiedButterfly);
 
 Index boundary_edges(const Topology& topology) {
   Index count = 0;
@@ -70,8 +67,8 @@ TEST(AdaptiveButterfly, TakesVerticesOfTheUniformMeshWithoutCracks) {
     AdaptiveOptions options;
     options.angle = 12.0;
     options.max_level = 5;
-    const AdaptiveMesh adaptive = tessellate_adaptively(Topology(mesh), modified_butterfly(), mesh.points, options);
-    expect_subset(mesh, modified_butterfly(), adaptive);
+    const AdaptiveMesh adaptive = tessellate_adaptively(Topology(mesh), kModified, mesh.points, options);
+    expect_subset(mesh, kModified, adaptive);
     // A crack would be a boundary that the mesh does not have; with a Topology of it there are no T-junctions.
     const Topology coarse(mesh);
     const Topology fine(adaptive.mesh);
@@ -97,8 +94,8 @@ TEST(AdaptiveButterfly, KeepsCreases) {
   }
   AdaptiveOptions options;
   options.edge_length = 0.15;
-  const AdaptiveMesh adaptive = tessellate_adaptively(Topology(mesh), modified_butterfly(), mesh.points, options);
-  expect_subset(mesh, modified_butterfly(), adaptive);
+  const AdaptiveMesh adaptive = tessellate_adaptively(Topology(mesh), kModified, mesh.points, options);
+  expect_subset(mesh, kModified, adaptive);
   EXPECT_EQ(boundary_edges(Topology(adaptive.mesh)), 0);
   EXPECT_EQ(adaptive.mesh.attributes.size(), 2U);  // normals at corners too, a side each
 }
@@ -107,7 +104,7 @@ TEST(AdaptiveButterfly, MeetsAnEdgeLength) {
   const Mesh mesh = test::jittered(icosahedron(), 0.1, 2);
   AdaptiveOptions options;
   options.edge_length = 0.2;
-  const AdaptiveMesh adaptive = tessellate_adaptively(Topology(mesh), modified_butterfly(), mesh.points, options);
+  const AdaptiveMesh adaptive = tessellate_adaptively(Topology(mesh), kModified, mesh.points, options);
   EXPECT_LE(adaptive.longest_edge, options.edge_length);
   EXPECT_GT(adaptive.longest_edge, 0.5 * options.edge_length);
   const Topology fine(adaptive.mesh);
@@ -127,10 +124,10 @@ TEST(AdaptiveButterfly, CutsWhatYouSay) {
   options.cut = [&](const AdaptiveFace& face) {
     return (face.points.rowwise() - target).rowwise().norm().minCoeff() < 1e-12;
   };
-  const AdaptiveMesh adaptive = tessellate_adaptively(Topology(mesh), modified_butterfly(), mesh.points, options);
+  const AdaptiveMesh adaptive = tessellate_adaptively(Topology(mesh), kModified, mesh.points, options);
   EXPECT_EQ(adaptive.deepest_level, 6);
   EXPECT_LT(adaptive.mesh.face_count(), 600);  // uniform: 81,920
-  expect_subset(mesh, modified_butterfly(), adaptive);
+  expect_subset(mesh, kModified, adaptive);
 }
 
 TEST(AdaptiveButterfly, RefusesWhatItHasNot) {
@@ -138,7 +135,7 @@ TEST(AdaptiveButterfly, RefusesWhatItHasNot) {
   const Topology topology(mesh);
   const auto message = [&](const AdaptiveOptions& options) -> std::string {
     try {
-      tessellate_adaptively(topology, modified_butterfly(), mesh.points, options);
+      tessellate_adaptively(topology, kModified, mesh.points, options);
     } catch (const Error& error) {
       return error.what();
     }

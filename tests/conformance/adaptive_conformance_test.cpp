@@ -27,13 +27,10 @@ Index boundary_loops(const Topology& topology) {
   return loops;
 }
 
-class AdaptiveShapes : public ::testing::TestWithParam<std::string> {};
+class AdaptiveShapes : public ShapeTest {};
 INSTANTIATE_TEST_SUITE_P(Conformance, AdaptiveShapes, ::testing::ValuesIn(shape_names()), test_name);
 
 TEST_P(AdaptiveShapes, KeepTheirToleranceWithoutCracks) {
-  BATTEN_REQUIRE_DATA();
-  const Mesh mesh = load_shape(GetParam());
-  const Scheme scheme = scheme_of_shape(GetParam(), mesh);
   const Topology topology(mesh);
   const LimitSurface surface(topology, scheme, mesh.points);
   for (const FaceKind kind : {FaceKind::Triangles, FaceKind::Quads}) {

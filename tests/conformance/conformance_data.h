@@ -96,6 +96,32 @@ inline Scheme scheme_of_shape(const std::string& name, const Mesh& mesh) {
   return scheme;
 }
 
+/// A test of one shape under the scheme that its file asks for. Skipped without the data.
+class ShapeTest : public ::testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    BATTEN_REQUIRE_DATA();
+    mesh = load_shape(GetParam());
+    scheme = scheme_of_shape(GetParam(), mesh);
+  }
+
+  /// Calls check(scheme) with each boundary rule.
+  template <typename Check>
+  void for_each_boundary_rule(const Check& check) {
+    for (const auto rule : {BoundaryRule::None, BoundaryRule::EdgeOnly, BoundaryRule::EdgeAndCorner}) {
+      scheme.boundary = rule;
+      check(scheme);
+    }
+  }
+  void take_smooth_triangles() {
+    scheme.kind = SchemeKind::CatmullClark;
+    scheme.triangle_rule = TriangleRule::Smooth;
+  }
+
+  Mesh mesh;
+  Scheme scheme;
+};
+
 /// A parametrised test's name from a file's.
 inline std::string test_name(const ::testing::TestParamInfo<std::string>& info) {
   std::string name = info.param;

@@ -146,48 +146,30 @@ void expect_same_limits(const Mesh& mesh, const Scheme& scheme, int most_levels)
   ::testing::Test::RecordProperty("left_out", std::to_string(of_control.left_out));
 }
 
-class LimitShapes : public ::testing::TestWithParam<std::string> {};
+class LimitShapes : public ShapeTest {};
 INSTANTIATE_TEST_SUITE_P(Conformance, LimitShapes, ::testing::ValuesIn(shape_names()), test_name);
 
 TEST_P(LimitShapes, HaveOpenSubdivsLimits) {
-  BATTEN_REQUIRE_DATA();
-  const Mesh mesh = load_shape(GetParam());
-  expect_same_limits(mesh, scheme_of_shape(GetParam(), mesh), 4);
+  expect_same_limits(mesh, scheme, 4);
 }
 
 TEST_P(LimitShapes, HaveOpenSubdivsLimitsUnderEveryBoundaryRule) {
-  BATTEN_REQUIRE_DATA();
-  const Mesh mesh = load_shape(GetParam());
-  Scheme scheme = scheme_of_shape(GetParam(), mesh);
-  for (const auto rule : {BoundaryRule::None, BoundaryRule::EdgeOnly, BoundaryRule::EdgeAndCorner}) {
-    scheme.boundary = rule;
-    expect_same_limits(mesh, scheme, 2);
-  }
+  for_each_boundary_rule([&](const Scheme& each) { expect_same_limits(mesh, each, 2); });
 }
 
 TEST_P(LimitShapes, HaveOpenSubdivsLimitsWithTheSmoothTriangleRule) {
-  BATTEN_REQUIRE_DATA();
-  const Mesh mesh = load_shape(GetParam());
-  Scheme scheme = scheme_of_shape(GetParam(), mesh);
-  scheme.kind = SchemeKind::CatmullClark;
-  scheme.triangle_rule = TriangleRule::Smooth;
+  take_smooth_triangles();
   expect_same_limits(mesh, scheme, 2);
 }
 
 /// Four levels end every tag but those of 4 and more, which are left out; large shapes get two.
 TEST_P(LimitShapes, HaveOpenSubdivsLimitsWithRandomTags) {
-  BATTEN_REQUIRE_DATA();
-  const Mesh mesh = load_shape(GetParam());
-  Scheme scheme = scheme_of_shape(GetParam(), mesh);
   scheme.crease_method = CreaseMethod::Uniform;
   expect_same_limits(with_random_tags(mesh, 1), scheme, mesh.face_count() > 200 ? 2 : 4);
 }
 
 /// What OpenSubdiv cannot tell, the limit itself does: A P is the same from every level of our own refinement.
 TEST_P(LimitShapes, AreReachedFromEveryLevel) {
-  BATTEN_REQUIRE_DATA();
-  const Mesh mesh = load_shape(GetParam());
-  const Scheme scheme = scheme_of_shape(GetParam(), mesh);
   const Topology topology(mesh);
   const Values limit = LimitMatrix(topology, scheme).apply(mesh.points);
   for (int level = 1; level <= 3; ++level) {

@@ -197,24 +197,16 @@ Mesh with_exact_random_tags(const Mesh& mesh, unsigned seed) {
 /// Shapes of which nothing can be compared.
 const std::set<std::string> kNoSurfaceOfBfr{"loop_chaikin1", "catmark_val2_back2back"};
 
-class LimitSurfaceShapes : public ::testing::TestWithParam<std::string> {};
+class LimitSurfaceShapes : public ShapeTest {};
 INSTANTIATE_TEST_SUITE_P(Conformance, LimitSurfaceShapes, ::testing::ValuesIn(shape_names()), test_name);
 
 TEST_P(LimitSurfaceShapes, HaveTheJetsOfBfr) {
-  BATTEN_REQUIRE_DATA();
-  const Mesh mesh = load_shape(GetParam());
-  const Index compared = expect_the_jets_of_bfr(mesh, scheme_of_shape(GetParam(), mesh), 200);
+  const Index compared = expect_the_jets_of_bfr(mesh, scheme, 200);
   EXPECT_EQ(compared == 0, kNoSurfaceOfBfr.count(GetParam()) > 0);
 }
 
 TEST_P(LimitSurfaceShapes, HaveTheJetsOfBfrUnderEveryBoundaryRule) {
-  BATTEN_REQUIRE_DATA();
-  const Mesh mesh = load_shape(GetParam());
-  Scheme scheme = scheme_of_shape(GetParam(), mesh);
-  for (const auto rule : {BoundaryRule::None, BoundaryRule::EdgeOnly, BoundaryRule::EdgeAndCorner}) {
-    scheme.boundary = rule;
-    expect_the_jets_of_bfr(mesh, scheme, 50);
-  }
+  for_each_boundary_rule([&](const Scheme& each) { expect_the_jets_of_bfr(mesh, each, 50); });
 }
 
 /// The smooth triangle rule is Catmull-Clark's alone.
@@ -226,21 +218,15 @@ std::vector<std::string> catmull_clark_shapes() {
   return names;
 }
 
-class CatmullClarkSurfaces : public ::testing::TestWithParam<std::string> {};
+class CatmullClarkSurfaces : public ShapeTest {};
 INSTANTIATE_TEST_SUITE_P(Conformance, CatmullClarkSurfaces, ::testing::ValuesIn(catmull_clark_shapes()), test_name);
 
 TEST_P(CatmullClarkSurfaces, HaveTheJetsOfBfrWithTheSmoothTriangleRule) {
-  BATTEN_REQUIRE_DATA();
-  const Mesh mesh = load_shape(GetParam());
-  Scheme scheme = scheme_of_shape(GetParam(), mesh);
   scheme.triangle_rule = TriangleRule::Smooth;
   expect_the_jets_of_bfr(mesh, scheme, 50);
 }
 
 TEST_P(LimitSurfaceShapes, HaveTheJetsOfBfrWithRandomTags) {
-  BATTEN_REQUIRE_DATA();
-  const Mesh mesh = load_shape(GetParam());
-  Scheme scheme = scheme_of_shape(GetParam(), mesh);
   scheme.crease_method = CreaseMethod::Uniform;
   expect_the_jets_of_bfr(with_exact_random_tags(mesh, 1), scheme, 50);
 }

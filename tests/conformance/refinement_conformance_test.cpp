@@ -51,29 +51,18 @@ void expect_same_levels(const Mesh& mesh, const Scheme& scheme, int levels) {
 
 // Each shape with the scheme, boundary, crease and triangle rule that its file asks for.
 
-class Shapes : public ::testing::TestWithParam<std::string> {};
+class Shapes : public ShapeTest {};
 INSTANTIATE_TEST_SUITE_P(Conformance, Shapes, ::testing::ValuesIn(shape_names()), test_name);
 
 TEST_P(Shapes, RefineAsOpenSubdivDoes) {
-  BATTEN_REQUIRE_DATA();
-  const Mesh mesh = load_shape(GetParam());
-  expect_same_levels(mesh, scheme_of_shape(GetParam(), mesh), 3);
+  expect_same_levels(mesh, scheme, 3);
 }
 
 TEST_P(Shapes, RefineAsOpenSubdivDoesUnderEveryBoundaryRule) {
-  BATTEN_REQUIRE_DATA();
-  const Mesh mesh = load_shape(GetParam());
-  Scheme scheme = scheme_of_shape(GetParam(), mesh);
-  for (const auto rule : {BoundaryRule::None, BoundaryRule::EdgeOnly, BoundaryRule::EdgeAndCorner}) {
-    scheme.boundary = rule;
-    expect_same_levels(mesh, scheme, 2);
-  }
+  for_each_boundary_rule([&](const Scheme& each) { expect_same_levels(mesh, each, 2); });
 }
 
 TEST_P(Shapes, HaveTheFacesThatOpenSubdivHidesWithoutABoundary) {
-  BATTEN_REQUIRE_DATA();
-  const Mesh mesh = load_shape(GetParam());
-  Scheme scheme = scheme_of_shape(GetParam(), mesh);
   scheme.boundary = BoundaryRule::None;
   const Oracle oracle(mesh, scheme, 0);
   const Buffer<std::uint8_t> holes = surface_holes(oracle.topology(0), scheme);
@@ -83,18 +72,11 @@ TEST_P(Shapes, HaveTheFacesThatOpenSubdivHidesWithoutABoundary) {
 }
 
 TEST_P(Shapes, RefineAsOpenSubdivDoesWithTheSmoothTriangleRule) {
-  BATTEN_REQUIRE_DATA();
-  const Mesh mesh = load_shape(GetParam());
-  Scheme scheme = scheme_of_shape(GetParam(), mesh);
-  scheme.kind = SchemeKind::CatmullClark;
-  scheme.triangle_rule = TriangleRule::Smooth;
+  take_smooth_triangles();
   expect_same_levels(mesh, scheme, 2);
 }
 
 TEST_P(Shapes, RefineAsOpenSubdivDoesWithChaikinsCreases) {
-  BATTEN_REQUIRE_DATA();
-  const Mesh mesh = load_shape(GetParam());
-  Scheme scheme = scheme_of_shape(GetParam(), mesh);
   scheme.crease_method = CreaseMethod::Chaikin;
   expect_same_levels(mesh, scheme, 3);
 }
@@ -102,9 +84,6 @@ TEST_P(Shapes, RefineAsOpenSubdivDoesWithChaikinsCreases) {
 // Chance tags: every mixture of sharpness that a vertex can meet, fading at different levels.
 
 TEST_P(Shapes, RefineAsOpenSubdivDoesWithRandomTags) {
-  BATTEN_REQUIRE_DATA();
-  const Mesh mesh = load_shape(GetParam());
-  Scheme scheme = scheme_of_shape(GetParam(), mesh);
   scheme.crease_method = CreaseMethod::Uniform;
   for (unsigned seed = 0; seed < 4; ++seed) expect_same_levels(with_random_tags(mesh, seed), scheme, 3);
 }
@@ -139,9 +118,6 @@ void expect_same_steps(const Oracle& oracle, const Scheme& scheme, double diagon
 }
 
 TEST_P(Shapes, RefineAsOpenSubdivDoesWithRandomTagsAndChaikinsCreases) {
-  BATTEN_REQUIRE_DATA();
-  const Mesh mesh = load_shape(GetParam());
-  Scheme scheme = scheme_of_shape(GetParam(), mesh);
   scheme.crease_method = CreaseMethod::Chaikin;
   for (unsigned seed = 0; seed < 4; ++seed) {
     const Oracle oracle(with_random_tags(mesh, seed), scheme, 3);

@@ -4,14 +4,11 @@
 namespace batten::test {
 namespace {
 
-class TessellatedShapes : public ::testing::TestWithParam<std::string> {};
+class TessellatedShapes : public ShapeTest {};
 INSTANTIATE_TEST_SUITE_P(Conformance, TessellatedShapes, ::testing::ValuesIn(shape_names()), test_name);
 
 TEST_P(TessellatedShapes, AreWhatRefinementGives) {
-  BATTEN_REQUIRE_DATA();
-  const Mesh mesh = load_shape(GetParam());
   const Topology topology(mesh);
-  Scheme scheme = scheme_of_shape(GetParam(), mesh);
   const BoundaryRule own = scheme.boundary;
   for (const auto rule : {BoundaryRule::None, BoundaryRule::EdgeOnly, BoundaryRule::EdgeAndCorner}) {
     scheme.boundary = rule;

@@ -7,9 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <iterator>
-#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -17,8 +15,12 @@
 #include "batten/error.h"
 #include "batten/io/formats.h"
 #include "batten/io/io.h"
+#include "support/errors.h"
 
 namespace batten::io_tests {
+
+using test::error_of;
+using test::expect_error;
 
 /// A folder of its own, gone with its content at the end.
 class TemporaryFolder {
@@ -55,22 +57,11 @@ inline Mesh parse(Reader reader, const std::string& text, std::size_t chunk_byte
   return reader({"test", text, chunk_bytes});
 }
 
-/// The Error that body throws; a failed expectation and nothing when it throws none.
-inline std::optional<Error> error_of(const std::function<void()>& body) {
-  try {
-    body();
-  } catch (const Error& error) {
-    return error;
+/// Expects an Error with this code and this part of its message, in whatever pieces the text is read.
+inline void expect_read_error(Reader reader, const std::string& text, ErrorCode code, const std::string& part) {
+  for (const std::size_t chunk_bytes : {std::size_t{1}, io::kChunkBytes}) {
+    expect_error([&] { parse(reader, text, chunk_bytes); }, code, part);
   }
-  ADD_FAILURE() << "no Error was thrown";
-  return std::nullopt;
-}
-
-inline void expect_error(const std::function<void()>& body, ErrorCode code, const std::string& part) {
-  const std::optional<Error> error = error_of(body);
-  if (!error) return;
-  EXPECT_EQ(static_cast<int>(error->code()), static_cast<int>(code)) << error->what();
-  EXPECT_NE(std::string(error->what()).find(part), std::string::npos) << error->what() << "\nlacks: " << part;
 }
 
 /// Equal to the bit, -0 and NaN included.

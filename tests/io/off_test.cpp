@@ -33,9 +33,7 @@ TEST(OffReader, TheColourOfAFaceIsSkipped) {
 
 TEST(OffReader, ErrorsNameTheLine) {
   const auto expect = [](const std::string& text, ErrorCode code, const std::string& part) {
-    for (const std::size_t chunk : {std::size_t{1}, io::kChunkBytes}) {
-      expect_error([&] { parse(io::read_off, text, chunk); }, code, part);
-    }
+    expect_read_error(io::read_off, text, code, part);
   };
   expect("OFX\n", ErrorCode::BadFile, "test:1: an OFF file begins");
   expect("OFF BINARY\n3 1 0\n", ErrorCode::BadFile, "binary OFF is not read");

@@ -136,9 +136,7 @@ TEST(PlyReader, APromiseThatTheFileCannotHoldIsRefusedBeforeMemoryIsTaken) {
 TEST(PlyReader, ErrorsOfTextNameTheLine) {
   const std::string head(kTextHeader);
   const auto expect = [&](const std::string& body, ErrorCode code, const std::string& part) {
-    for (const std::size_t chunk : {std::size_t{1}, io::kChunkBytes}) {
-      expect_error([&] { parse(io::read_ply, head + body, chunk); }, code, part);
-    }
+    expect_read_error(io::read_ply, head + body, code, part);
   };
   expect("0 0 0\n1 0\n0 1 0\n3 0 1 2\n", ErrorCode::BadFile, "test:12: missing z");
   expect("0 0 0\n1 0 0\n0 1 x\n3 0 1 2\n", ErrorCode::BadFile, "test:13: 'x' is not a number (z)");

@@ -28,9 +28,7 @@ TEST(XyzReader, OtherColumnsAreKept) {
 
 TEST(XyzReader, ErrorsNameTheLine) {
   const auto expect = [](const std::string& text, ErrorCode code, const std::string& part) {
-    for (const std::size_t chunk : {std::size_t{1}, io::kChunkBytes}) {
-      expect_error([&] { parse(io::read_xyz, text, chunk); }, code, part);
-    }
+    expect_read_error(io::read_xyz, text, code, part);
   };
   expect("# c\n1 2\n", ErrorCode::BadFile, "test:2: missing z");
   expect("1 2 3\nx 2 3\n", ErrorCode::BadFile, "test:2: 'x'");

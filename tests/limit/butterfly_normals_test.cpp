@@ -11,17 +11,13 @@
 #include "batten/mesh/triangulate.h"
 #include "batten/refine/refinement.h"
 #include "batten/surface/limit_surface.h"
+#include "support/schemes.h"
 #include "support/shapes.h"
 
 namespace batten {
 namespace {
 
-Scheme scheme_of(SchemeKind kind, ButterflyBoundary boundary = ButterflyBoundary::CreaseRules) {
-  Scheme scheme;
-  scheme.kind = kind;
-  scheme.butterfly_boundary = boundary;
-  return scheme;
-}
+using test::scheme_of;
 
 Mesh only_infinite(Mesh mesh) {
   for (Crease& crease : mesh.creases) crease.sharpness = kInfiniteSharpness;

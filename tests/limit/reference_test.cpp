@@ -8,6 +8,7 @@
 
 #include "batten/limit/limit_matrix.h"
 #include "batten/refine/refinement.h"
+#include "support/schemes.h"
 #include "support/shapes.h"
 
 namespace batten {
@@ -111,11 +112,7 @@ TEST_P(Reference, LimitNormalsAreThoseOfTheFile) {
   }
 }
 
-Scheme modified_butterfly() {
-  Scheme scheme;
-  scheme.kind = SchemeKind::ModifiedButterfly;
-  return scheme;
-}
+const Scheme kModified = test::scheme_of(SchemeKind::ModifiedButterfly);
 
 class ButterflyReference : public Reference {};
 INSTANTIATE_TEST_SUITE_P(Limit, ButterflyReference,
@@ -124,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(Limit, ButterflyReference,
 TEST_P(ButterflyReference, EdgePointsAreThoseOfTheFile) {
   const Mesh mesh = mesh_of(entry());
   const Topology topology(mesh);
-  const Values refined = Refinement(topology, modified_butterfly()).apply(mesh.points);
+  const Values refined = Refinement(topology, kModified).apply(mesh.points);
   std::map<std::pair<Index, Index>, Index> edges;
   for (Index e = 0; e < topology.edge_count(); ++e) {
     const Index h = topology.edge_half_edge(e);
@@ -142,7 +139,7 @@ TEST_P(ButterflyReference, EdgePointsAreThoseOfTheFile) {
 
 TEST_P(ButterflyReference, NormalsAreThoseOfTheFile) {
   const Mesh mesh = mesh_of(entry());
-  const Values normals = limit_normals(Topology(mesh), modified_butterfly(), mesh.points).vertices;
+  const Values normals = limit_normals(Topology(mesh), kModified, mesh.points).vertices;
   const json& expected = entry().at("butterfly_normal_from_level2");
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     for (int c = 0; c < 3 && !expected[v].is_null(); ++c) {

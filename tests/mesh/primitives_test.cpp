@@ -7,9 +7,12 @@
 
 #include "batten/error.h"
 #include "mesh/manifold.h"
+#include "support/errors.h"
 
 namespace batten {
 namespace {
+
+using test::code_of;
 
 struct Solid {
   const char* name;
@@ -87,16 +90,6 @@ TEST(Primitives, GridIsOneSheetFacingUp) {
   const Eigen::Vector3d along = mesh.points.row(mesh.face_vertices[1]) - mesh.points.row(mesh.face_vertices[0]);
   const Eigen::Vector3d across = mesh.points.row(mesh.face_vertices[3]) - mesh.points.row(mesh.face_vertices[0]);
   EXPECT_GT(along.cross(across).z(), 0.0);
-}
-
-ErrorCode code_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.code();
-  }
-  ADD_FAILURE() << "no Error";
-  return ErrorCode::NotAvailable;
 }
 
 TEST(Primitives, RefuseWhatIsNoShape) {

@@ -203,30 +203,24 @@ Mesh touching_cubes(const Eigen::RowVector3d& shift) {
   return both;
 }
 
-TEST(Repair, GivesTwoSolidsThatTouchInAnEdgeAnEdgeEach) {
-  const Mesh mesh = touching_cubes({2, 2, 0});
-  const RepairResult result = repair(mesh);
-  expect_sound(mesh, result);
-  EXPECT_EQ(words(result), "split-edges 1, split-vertices 2, isolated-vertices 2");
+void expect_two_solids(const Mesh& touching, const std::string& changes) {
+  const RepairResult result = repair(touching);
+  expect_sound(touching, result);
+  EXPECT_EQ(words(result), changes);
   EXPECT_EQ(shape_of(result.mesh).component_count, 2);
   EXPECT_EQ(shape_of(result.mesh).boundary_loop_count, 0);
+}
+
+TEST(Repair, GivesTwoSolidsThatTouchInAnEdgeAnEdgeEach) {
+  expect_two_solids(touching_cubes({2, 2, 0}), "split-edges 1, split-vertices 2, isolated-vertices 2");
 }
 
 TEST(Repair, GivesTwoSolidsThatTouchInAPointAVertexEach) {
-  const Mesh mesh = touching_cubes({2, 2, 2});
-  const RepairResult result = repair(mesh);
-  expect_sound(mesh, result);
-  EXPECT_EQ(words(result), "split-vertices 1, isolated-vertices 1");
-  EXPECT_EQ(shape_of(result.mesh).component_count, 2);
+  expect_two_solids(touching_cubes({2, 2, 2}), "split-vertices 1, isolated-vertices 1");
 }
 
 TEST(Repair, KeepsBothSidesOfAWallBetweenTwoSolids) {
-  const Mesh mesh = touching_cubes({2, 0, 0});
-  const RepairResult result = repair(mesh);
-  expect_sound(mesh, result);
-  EXPECT_EQ(words(result), "split-edges 4, split-vertices 4, isolated-vertices 4");
-  EXPECT_EQ(shape_of(result.mesh).component_count, 2);
-  EXPECT_EQ(shape_of(result.mesh).boundary_loop_count, 0);
+  expect_two_solids(touching_cubes({2, 0, 0}), "split-edges 4, split-vertices 4, isolated-vertices 4");
 }
 
 TEST(Repair, TakesOneSideOfASheetThatIsGivenFromBothSides) {

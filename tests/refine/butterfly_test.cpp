@@ -10,6 +10,7 @@
 #include "batten/mesh/primitives.h"
 #include "batten/mesh/triangulate.h"
 #include "batten/refine/refinement.h"
+#include "support/schemes.h"
 #include "support/shapes.h"
 
 namespace batten {
@@ -19,12 +20,7 @@ constexpr double kPi = std::numbers::pi;
 /// A dozen roundings of numbers up to some hundred.
 constexpr double kTolerance = 1e-12;
 
-Scheme scheme_of(SchemeKind kind, ButterflyBoundary boundary = ButterflyBoundary::CreaseRules) {
-  Scheme scheme;
-  scheme.kind = kind;
-  scheme.butterfly_boundary = boundary;
-  return scheme;
-}
+using test::scheme_of;
 const Scheme kPlain = scheme_of(SchemeKind::Butterfly);
 const Scheme kModified = scheme_of(SchemeKind::ModifiedButterfly);
 const Scheme kReflect = scheme_of(SchemeKind::ModifiedButterfly, ButterflyBoundary::Reflect);

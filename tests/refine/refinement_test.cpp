@@ -10,6 +10,7 @@
 
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
+#include "support/errors.h"
 #include "support/shapes.h"
 
 namespace batten {
@@ -209,36 +210,25 @@ TEST(Refinement, AlphaCanBeGivenVertexByVertex) {
 
 // Errors, threads, size.
 
-template <typename Action>
-void expect_error(ErrorCode code, const std::string& part, const Action& action) {
-  try {
-    action();
-    ADD_FAILURE() << "no Error: " << part;
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), code) << error.what();
-    EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
-  }
-}
-
 TEST(Refinement, LoopOnQuadsNamesTheFace) {
   const Topology topology(test::mesh_of_faces(5, {{0, 1, 2}, {0, 2, 3, 4}}));
   Scheme scheme;
   scheme.kind = SchemeKind::Loop;
-  expect_error(ErrorCode::NotTriangles, "face 1 has 4", [&] { Refinement(topology, scheme); });
+  test::expect_error([&] { Refinement(topology, scheme); }, ErrorCode::NotTriangles, "face 1 has 4");
 }
 
 TEST(Refinement, WrongArgumentsAreRefused) {
   const Mesh mesh = cube();
   const Topology topology(mesh);
   Scheme scheme;
-  expect_error(ErrorCode::BadArgument, "levels", [&] { refine(topology, scheme, mesh.points, -1); });
-  expect_error(ErrorCode::BadShape, "7 rows", [&] { refine(topology, scheme, mesh.points.topRows(7), 1); });
-  expect_error(ErrorCode::BadShape, "vertex_alpha", [&] { Refinement(topology, scheme, {0.5}); });
-  expect_error(ErrorCode::BadArgument, "alpha", [&] { Refinement(topology, scheme, std::vector<double>(8, -0.1)); });
+  test::expect_error([&] { refine(topology, scheme, mesh.points, -1); }, ErrorCode::BadArgument, "levels");
+  test::expect_error([&] { refine(topology, scheme, mesh.points.topRows(7), 1); }, ErrorCode::BadShape, "7 rows");
+  test::expect_error([&] { Refinement(topology, scheme, {0.5}); }, ErrorCode::BadShape, "vertex_alpha");
+  test::expect_error([&] { Refinement(topology, scheme, std::vector<double>(8, -0.1)); }, ErrorCode::BadArgument, "alpha");
   scheme.alpha = 1.5;
-  expect_error(ErrorCode::BadArgument, "alpha", [&] { Refinement(topology, scheme); });
+  test::expect_error([&] { Refinement(topology, scheme); }, ErrorCode::BadArgument, "alpha");
   scheme.alpha = std::nan("");
-  expect_error(ErrorCode::BadArgument, "alpha", [&] { Refinement(topology, scheme); });
+  test::expect_error([&] { Refinement(topology, scheme); }, ErrorCode::BadArgument, "alpha");
 }
 
 TEST(Refinement, NoLevelsAndNoFacesAreNoError) {

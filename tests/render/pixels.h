@@ -4,12 +4,11 @@
 
 #include <array>
 #include <cmath>
-#include <functional>
 #include <numbers>
 
-#include "batten/error.h"
 #include "batten/mesh/primitives.h"
 #include "batten/render/render.h"
+#include "support/errors.h"
 
 namespace batten::test {
 
@@ -71,16 +70,6 @@ inline RenderOptions small_front_view() {
   options.up = UpAxis::Z;
   options.direction = {0.0, -1.0, 0.0};
   return options;
-}
-
-inline ErrorCode code_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.code();
-  }
-  ADD_FAILURE() << "no Error";
-  return ErrorCode::NotAvailable;
 }
 
 }  // namespace batten::test

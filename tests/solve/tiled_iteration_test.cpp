@@ -3,13 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
+#include "support/values.h"
 
 namespace batten {
 namespace {
+
+using test::random_values;
 
 /// The tensor product of two cyclic (1, 4, 1)/6 matrices on an n-by-n torus: the limit matrix of a regular quad mesh.
 /// Rows in `held` keep their values. D^-1 A has the spectrum [1/4, 9/4] (MATH 3).
@@ -44,12 +46,6 @@ class TorusRows : public RowSource {
   Index n_;
   Index held_;
 };
-
-Values random_values(Index rows, Index columns) {
-  std::mt19937 generator(7);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  return Values::NullaryExpr(rows, columns, [&] { return uniform(generator); });
-}
 
 IterationOptions options_of(SolveMethod method) {
   IterationOptions options;

@@ -2,13 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
-
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
+#include "support/values.h"
 
 namespace batten {
 namespace {
+
+using test::random_values;
 
 /// A cyclic random walk over an n-by-n torus whose weights change from row to row, but not too much.
 class UnevenRows : public RowSource {
@@ -55,12 +56,6 @@ class UnevenRows : public RowSource {
  private:
   Index n_;
 };
-
-Values random_values(Index rows, Index columns) {
-  std::mt19937 generator(7);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  return Values::NullaryExpr(rows, columns, [&] { return uniform(generator); });
-}
 
 /// Some thousand unknowns a tile: 130 x 130 make six tiles.
 TEST(TiledPolynomial, IsThePolynomialOverTheWholeMesh) {

@@ -8,16 +8,13 @@
 #include "batten/limit/limit_matrix.h"
 #include "batten/mesh/primitives.h"
 #include "batten/refine/refinement.h"
+#include "support/schemes.h"
 #include "support/shapes.h"
 
 namespace batten {
 namespace {
 
-Scheme scheme_of(SchemeKind kind) {
-  Scheme scheme;
-  scheme.kind = kind;
-  return scheme;
-}
+using test::scheme_of;
 
 /// Every sample mesh by every scheme that takes it, some with random tags.
 template <typename Visit>

@@ -9,16 +9,13 @@
 #include "batten/refine/refinement.h"
 #include "batten/scheme/masks.h"
 #include "batten/tessellate/tessellator.h"
+#include "support/schemes.h"
 #include "support/shapes.h"
 
 namespace batten {
 namespace {
 
-Scheme scheme_of(SchemeKind kind) {
-  Scheme scheme;
-  scheme.kind = kind;
-  return scheme;
-}
+using test::scheme_of;
 
 /// Points and normals at the grids' points, which the tessellator knows by other means.
 void expect_the_tessellators_limits(const Mesh& mesh, const Scheme& scheme, const std::string& name) {

@@ -6,17 +6,14 @@
 #include "batten/mesh/triangulate.h"
 #include "batten/parallel/parallel.h"
 #include "batten/refine/refined_mesh.h"
+#include "support/schemes.h"
 #include "support/shapes.h"
 #include "support/tessellation.h"
 
 namespace batten {
 namespace {
 
-Scheme scheme_of(SchemeKind kind) {
-  Scheme scheme;
-  scheme.kind = kind;
-  return scheme;
-}
+using test::scheme_of;
 
 void expect_refinement(const Mesh& mesh, const Scheme& scheme, int levels) {
   const Topology topology(mesh);

@@ -7,6 +7,7 @@
 
 #include "batten/adaptive/chord_bound.h"
 #include "batten/error.h"
+#include "batten/mesh/segment.h"
 #include "batten/parallel/parallel.h"
 
 namespace batten {
@@ -16,25 +17,18 @@ namespace {
 using Point = Eigen::Vector3d;
 using CornerPoints = std::array<Point, 4>;
 
-/// So many levels below an irregular cell are looked at before the control points' hull has to do: there it is some
-/// tenth of what the cell itself strays.
+/// The number of levels examined below an irregular cell before the hull of the control points is used as a bound.
+/// There the hull is about a tenth of the cell's own deviation.
 constexpr int kLookAhead = 3;
 
-double distance_to_segment(const Point& p, const Point& a, const Point& b) {
-  const Point along = b - a;
-  const double square = along.squaredNorm();
-  const double t = square > 0.0 ? std::clamp((p - a).dot(along) / square, 0.0, 1.0) : 0.0;
-  return (p - a - t * along).norm();
-}
-
-/// What one level more shows of a cell.
+/// What one more level shows of a cell.
 struct Expansion {
   std::array<CellNet, 4> children;
   std::array<Point, 4> middles;  ///< of the sides
   Point centre;
 };
 
-/// Goes through the cells of base faces, depth first. One object for each thread at work.
+/// Visits the cells of base faces depth first. Each thread uses its own object.
 class CellWalk {
  public:
   CellWalk(const CellNets& nets, const LimitSurface& surface, const CellForest& forest, const ChordRule& rule)
@@ -45,7 +39,7 @@ class CellWalk {
         corners_(nets.quads() ? 4 : 3),
         levels_(static_cast<std::size_t>(CellForest::kMostLevels + kLookAhead) + 4) {}
 
-  /// Appends a flag a cell, depth first: whether it is cut.
+  /// Appends a flag for each cell, depth first: 1 if it is split.
   void walk(Index face, const CornerPoints& corners, Buffer<std::uint8_t>& flags) {
     nets_.root(face, root_);
     visit(root_, corners, curve_sides(face), flags);
@@ -112,12 +106,12 @@ class CellWalk {
   const ChordRule& rule_;
   int corners_;
   CellNet root_;
-  std::vector<Expansion> levels_;  ///< of the cells from the root to the one at hand, and of what lies ahead
+  std::vector<Expansion> levels_;  ///< of the cells from the root to the current one, and of the levels examined ahead
   Index unmet_ = 0;
   std::int64_t leaves_ = 0;
 };
 
-/// Points come from children that are patches, at no cost, or else from the surface.
+/// The points come from children that are patches, at no cost, or otherwise from the surface.
 void CellWalk::expand(const CellNet& net, Expansion& expansion) const {
   nets_.children(net, expansion.children);
   const auto is_patch = [&](int child) { return expansion.children[child].kind == CellNet::Kind::Patch; };
@@ -142,7 +136,7 @@ void CellWalk::expand(const CellNet& net, Expansion& expansion) const {
   expansion.centre = between(net, 0.5, 0.5);
 }
 
-/// How far the points one level deeper stand from the cell's own faces, whichever way it is cut in two.
+/// The distance of the points one level deeper from the cell's own faces, for either way to cut the cell in two.
 double CellWalk::deviation(const CornerPoints& corners, const Expansion& expansion, CurveSides curves) const {
   const Point normal = (corners_ == 4 ? (corners[2] - corners[0]).cross(corners[3] - corners[1])
                                       : (corners[1] - corners[0]).cross(corners[2] - corners[0]))
@@ -161,7 +155,7 @@ double CellWalk::deviation(const CornerPoints& corners, const Expansion& expansi
                    stray(expansion.centre, corners[1], corners[3], false)});
 }
 
-/// A triangle's three quads around its centre are not its children: how far they stand from these.
+/// The three quads around a triangle's centre are not its children; this is their distance from the children.
 double CellWalk::centre_deviation(const CellNet& net, const CornerPoints& corners, const Expansion& expansion) const {
   if (corners_ == 4) return 0.0;
   const std::array<Point, 4>& middles = expansion.middles;
@@ -178,7 +172,7 @@ double CellWalk::centre_deviation(const CellNet& net, const CornerPoints& corner
   return worst;
 }
 
-/// The height of the control points, and so of the surface and of faces on it, over the cell's plane.
+/// The greatest height of the control points over the cell's plane, which bounds the surface and faces on it.
 double CellWalk::hull_bound(const CellNet& net, CurveSides curves) const {
   const auto point = [&](int i) -> Point { return net.points.row(i).transpose(); };
   const Point normal = (corners_ == 4 ? (point(2) - point(0)).cross(point(3) - point(1))
@@ -190,7 +184,7 @@ double CellWalk::hull_bound(const CellNet& net, CurveSides curves) const {
   return heights.maxCoeff() - heights.minCoeff();
 }
 
-/// The largest bound of the children, which levels_[depth] has.
+/// The largest bound of the children in levels_[depth].
 double CellWalk::inner_bound(const CornerPoints& corners, CurveSides curves, int look_ahead, std::size_t depth) {
   double worst = 0.0;
   for (int k = 0; k < 4; ++k) {
@@ -201,7 +195,8 @@ double CellWalk::inner_bound(const CornerPoints& corners, CurveSides curves, int
   return worst;
 }
 
-/// How far the surface of a cell strays from faces over it: what its children's faces stray, and its children's own.
+/// A bound for the distance of a cell's surface from faces over it: the distance of the children's faces plus the
+/// children's own bound.
 double CellWalk::bound(const CellNet& net, const CornerPoints& corners, CurveSides curves, int look_ahead,
                        std::size_t depth) {
   if (net.kind == CellNet::Kind::Patch) return patch_bound(net, curves);
@@ -211,17 +206,17 @@ double CellWalk::bound(const CellNet& net, const CornerPoints& corners, CurveSid
   return own + inner_bound(corners, curves, look_ahead, depth);
 }
 
-/// Leaves levels_ with the children of an irregular cell.
+/// True if the cell is beyond the tolerance. For an irregular cell, levels_ then holds its children.
 bool CellWalk::beyond(const CellNet& net, const CornerPoints& corners, CurveSides curves) {
   const auto depth = static_cast<std::size_t>(net.level);
   if (net.kind == CellNet::Kind::Patch) {
-    // Quads within a cell are half as wide; a triangle's reach from a corner to the centre, up to two thirds.
+    // Quads within a cell are half as wide; those of a triangle extend from a corner to the centre, up to two thirds.
     const double shrunk = !rule_.quartered ? 1.0 : corners_ == 4 ? 4.0 : 2.0;
     return patch_bound(net, curves) > rule_.tolerance * shrunk;
   }
   expand(net, levels_[depth]);
   if (rule_.quartered) {
-    // Quads beside a finer neighbour have a corner in the middle of a child's side: as far again from its faces.
+    // Quads beside a finer neighbour have a corner in the middle of a child's side, which adds the same distance again.
     const double own = centre_deviation(net, corners, levels_[depth]);
     return own > rule_.tolerance || own + 2.0 * inner_bound(corners, curves, kLookAhead, depth) > rule_.tolerance;
   }
@@ -243,7 +238,7 @@ void CellWalk::visit(const CellNet& net, const CornerPoints& corners, CurveSides
   const bool patch = net.kind == CellNet::Kind::Patch;
   if (patch) nets_.children(net, expansion.children);
   for (int k = 0; k < 4; ++k) {
-    // A patch's bound needs no corners.
+    // The bound of a patch does not use the corners.
     visit(expansion.children[k], patch ? corners : child_corners(corners, expansion, k), child_curves(curves, k),
           flags);
   }
@@ -257,13 +252,13 @@ CornerPoints corners_of(const CellForest& forest, const Points& points, Index fa
 
 constexpr std::ptrdiff_t kFacesPerBlock = 16;
 
-/// What a block of base faces is cut into.
+/// The flags of a block of base faces.
 struct BlockFlags {
   Buffer<std::uint8_t> flags;
   Index unmet = 0;
 };
 
-/// Cuts a cell as its flags say, and counts those read.
+/// Splits a cell according to its flags and advances past those it read.
 void cut(CellForest& forest, Index cell, const std::uint8_t*& flag) {
   if (*flag++ == 0) return;
   forest.split(cell);

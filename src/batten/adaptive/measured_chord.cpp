@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "batten/adaptive/adaptive.h"
+#include "batten/mesh/segment.h"
 #include "batten/parallel/parallel.h"
 
 namespace batten {
@@ -11,16 +12,9 @@ namespace {
 
 using Point = Eigen::Vector3d;
 
-double distance_to_edge(const Point& p, const Point& a, const Point& b) {
-  const Point along = b - a;
-  const double square = along.squaredNorm();
-  const double t = square > 0.0 ? std::clamp((p - a).dot(along) / square, 0.0, 1.0) : 0.0;
-  return (p - a - t * along).norm();
-}
-
 struct Distance {
   double value;
-  bool above;  ///< the nearest point lies inside the triangle
+  bool above;  ///< the nearest point is inside the triangle
 };
 
 Distance distance_to_triangle(const Point& p, const std::array<Point, 3>& corners) {
@@ -31,7 +25,7 @@ Distance distance_to_triangle(const Point& p, const std::array<Point, 3>& corner
     const Point& a = corners[k];
     const Point& b = corners[(k + 1) % 3];
     inside = inside && normal.cross(b - a).dot(p - a) >= 0.0;
-    nearest = std::min(nearest, distance_to_edge(p, a, b));
+    nearest = std::min(nearest, distance_to_segment(p, a, b));
   }
   return {inside ? std::abs(normal.dot(p - corners[0])) / normal.norm() : nearest, inside};
 }
@@ -45,7 +39,7 @@ constexpr std::array<std::array<double, 3>, kSampleCount> kSamples{{{0.5, 0.5, 0
                                                                     {1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0},
                                                                     {1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0}}};
 
-/// A mesh with the faces around each vertex.
+/// Measures distances to a mesh, with the faces around each vertex.
 class Meter {
  public:
   Meter(const LimitSurface& surface, const AdaptiveMesh& mesh) : surface_(surface), adaptive_(mesh), mesh_(mesh.mesh) {
@@ -61,7 +55,7 @@ class Meter {
     }
   }
 
-  /// Of one of a face's triangles.
+  /// The greatest distance at samples of one of a face's triangles.
   double worst_of(Index face, Index half) const {
     const std::array<Index, 3> corners{0, half + 1, half + 2};
     const Index first = mesh_.face_offsets[face];
@@ -87,7 +81,8 @@ class Meter {
     return {mesh_.points.row(v[0]).transpose(), mesh_.points.row(v[half + 1]).transpose(),
             mesh_.points.row(v[half + 2]).transpose()};
   }
-  /// To the face's own triangle where the point is above it, otherwise to those around too.
+  /// The distance to the face's own triangle if the point is above it, otherwise to the nearest of the surrounding ones
+  /// too.
   double nearest(const Point& p, Index face, Index half) const {
     const Distance own = distance_to_triangle(p, triangle(face, half));
     if (own.above) return own.value;
@@ -107,7 +102,7 @@ class Meter {
   const LimitSurface& surface_;
   const AdaptiveMesh& adaptive_;
   const Mesh& mesh_;
-  Buffer<Index> first_;  ///< in around_, of each vertex
+  Buffer<Index> first_;  ///< the start of each vertex's faces in around_
   Buffer<Index> around_;
 };
 
