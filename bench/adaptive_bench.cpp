@@ -1,4 +1,4 @@
-/// \file Adaptive tessellation to a chord tolerance: faces a second, and how many faces the tolerance took.
+/// \file Adaptive tessellation to a chord tolerance: faces per second, and how many faces the tolerance needs.
 #include <benchmark/benchmark.h>
 
 #include "batten/adaptive/adaptive.h"
@@ -11,7 +11,8 @@ using batten::AdaptiveOptions;
 using batten::FaceKind;
 using batten::Mesh;
 
-/// A torus of quads, regular all over, or an icosahedron's quads, each with an extraordinary vertex.
+/// The meshes are a torus of quads, which is regular, and an icosahedron's quads, each of which has an extraordinary
+/// vertex.
 void tessellate(benchmark::State& state, const Mesh& mesh, FaceKind faces, double fraction) {
   const batten::ThreadLimit limit(1);
   const batten::Topology topology(mesh);

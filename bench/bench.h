@@ -1,5 +1,5 @@
-/// \file What the parts of the bench of record share. Ratios in one run count; single timings on a shared machine
-/// don't.
+/// \file Functions that the parts of the bench of record share. Only ratios within one run are meaningful on a shared
+/// machine; single timings are not.
 #pragma once
 #include <chrono>
 #include <functional>
@@ -12,10 +12,11 @@ namespace batten::bench {
 
 double median(std::vector<double> values);
 
-/// Seconds of one call.
+/// The seconds of one call.
 double seconds_of(const std::function<void()>& work);
 
-/// Runs the works in turn, `rounds` times A B C A B C ..., after one warm-up each; the median seconds of each.
+/// Runs the works alternately, `rounds` times A B C A B C ..., after a warm-up of each. Returns the median seconds of
+/// each.
 std::vector<double> in_turn(const std::vector<std::function<void()>>& works, int rounds);
 
 /// A Markdown table, row by row.
@@ -31,8 +32,8 @@ class MarkdownTable {
 
 std::string number(double value, int digits = 3);
 
-/// A mesh of the kind that people bring: beast.obj of the test data where BATTEN_DATA is set, else models/creature.obj,
-/// refined until it has at least `vertices` vertices, its points moved by up to 0.3 mean edge lengths.
+/// A typical mesh: beast.obj of the test data if BATTEN_DATA is set, otherwise models/creature.obj. It is refined until
+/// it has at least `vertices` vertices, and its points are moved by up to 0.3 mean edge lengths.
 struct Subject {
   std::string name;
   Topology topology;
@@ -40,15 +41,16 @@ struct Subject {
   Values targets;
 };
 Subject subject(Index vertices);
-/// A noisy torus of about so many vertices.
+/// A noisy torus of about this many vertices.
 Subject torus_subject(Index vertices);
 
-/// The papers' iterations as whole sweeps over the mesh, with the tiles' kernel, order, precision and threads.
+/// The papers' iterations as whole sweeps over the mesh, with the kernel, order, precision and threads of the tiles.
 class Sweeps {
  public:
   explicit Sweeps(const Subject& subject);
   ~Sweeps();
-  /// Thall's (Jacobi, omega 1/2) or Lai and Cheng's (Richardson) to the tolerance; returns the number of sweeps.
+  /// Runs Thall's method (Jacobi, omega 1/2) or Lai and Cheng's (Richardson) to the tolerance. Returns the number of
+  /// sweeps.
   int run(const Subject& subject, SolveMethod method, double tolerance) const;
 
  private:
@@ -56,16 +58,17 @@ class Sweeps {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Eigen's conjugate gradients with a diagonal preconditioner, triplet assembly included; returns the largest miss.
+/// Eigen's conjugate gradients with a diagonal preconditioner, including the assembly from triplets. Returns the
+/// largest distance from a target.
 double eigen_conjugate_gradients(const Subject& subject, double relative_tolerance);
 
-/// The most memory that the process holds while the work runs, less what it held before, in bytes.
+/// The growth of the process's peak memory during the work, in bytes.
 double peak_growth(const std::function<void()>& work);
 
-/// The number after "key" in a small text file. Throws std::runtime_error where it isn't there.
+/// The number after "key" in a small text file. Throws std::runtime_error if it is missing.
 double number_after(const std::string& path, const std::string& key);
 
-/// Replaces what `./batten bench COMMAND` said before in the page of record, and leaves the other parts alone.
+/// Replaces the output of `./batten bench COMMAND` in the page of record and keeps the other parts.
 void write_part(const std::string& page, const std::string& command, const std::string& text);
 
 /// The processor, the compiler and the copy bandwidth.
@@ -79,7 +82,7 @@ std::string picture_section();
 std::string nearest_section();
 std::string series_section();
 
-/// In a process of its own: interpolates a refined mesh of at least so many vertices, then exits.
+/// For a separate process: interpolates a refined mesh of at least this many vertices and exits.
 int run_large(Index vertices);
 
 }  // namespace batten::bench

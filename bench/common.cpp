@@ -1,4 +1,4 @@
-/// What all benches share.
+/// Functions that all benches share.
 #include <malloc.h>
 
 #include <algorithm>
@@ -65,8 +65,8 @@ double number_after(const std::string& path, const std::string& key) {
 }
 
 double peak_growth(const std::function<void()>& work) {
-  malloc_trim(0);                                 // what was freed before is not there to be used again
-  std::ofstream("/proc/self/clear_refs") << "5";  // the high-water mark starts from here
+  malloc_trim(0);                                 // memory freed earlier must not be reused
+  std::ofstream("/proc/self/clear_refs") << "5";  // resets the high-water mark
   const double before = number_after("/proc/self/status", "VmRSS:");
   work();
   return 1024.0 * (number_after("/proc/self/status", "VmHWM:") - before);

@@ -1,7 +1,7 @@
-/// Noise taken from surfaces of known shape, beside VTK's and CGAL's ways: prints the table of docs/denoise.md.
+/// Noise removal from surfaces of known shape beside VTK's and CGAL's methods: prints the table of docs/denoise.md.
 ///
-/// Ours chooses its passes by the noise that it measures; the others get whichever of their parameters leaves the least
-/// error, which only who knows the shape can choose. Every result is scaled to the volume of the noisy mesh.
+/// Batten chooses its passes by the noise that it measures. The others get the parameters with the least error, which
+/// only someone who knows the true shape could choose. Every result is scaled to the volume of the noisy mesh.
 #include <CGAL/Polygon_mesh_processing/smooth_shape.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
@@ -72,7 +72,7 @@ double error(const Shape& shape, const Points& points) {
   return std::sqrt(sum / static_cast<double>(points.rows()));
 }
 
-/// About the plain centroid.
+/// Scales about the plain centroid.
 Points at_volume(const Topology& topology, Points points, double volume) {
   const double factor = std::cbrt(volume / batten::component_volumes(topology, points).sum());
   const Eigen::RowVector3d centre = points.colwise().mean();

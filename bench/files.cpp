@@ -1,4 +1,4 @@
-/// Reading and writing meshes, drawing them.
+/// Reads, writes and draws meshes.
 #include <unistd.h>
 
 #include <filesystem>

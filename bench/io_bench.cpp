@@ -1,4 +1,4 @@
-/// \file Files of about 100 MB, read from and written to the page cache.
+/// \file Reads and writes files of about 100 MB in the page cache.
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
@@ -13,7 +13,7 @@ namespace {
 using batten::Index;
 using batten::Mesh;
 
-/// A wavy grid of quads with side * side vertices: doubles with all their digits, as computed meshes have.
+/// A wavy grid of quads with side * side vertices, whose doubles have all their digits, as in computed meshes.
 Mesh make_grid(Index side) {
   Mesh mesh;
   mesh.points.resize(Eigen::Index{side} * side, 3);
@@ -36,7 +36,7 @@ Mesh make_grid(Index side) {
 struct Subject {
   const char* format;
   bool binary;
-  Index side;  ///< makes about 100 MB
+  Index side;  ///< so that the file has about 100 MB
 };
 
 constexpr Subject kSubjects[] = {{"obj", true, 1130}, {"ply", true, 1570}, {"ply", false, 1130},

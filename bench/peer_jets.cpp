@@ -20,7 +20,7 @@ namespace Bfr = OpenSubdiv::Bfr;
 constexpr int kRounds = 5;
 constexpr std::size_t kPlaces = 200000;
 
-/// All faces' surfaces and their points, made once.
+/// The surfaces of all faces and their points, built once.
 class BfrSurfaces {
  public:
   BfrSurfaces(const Mesh& mesh, const Scheme& scheme)
@@ -51,13 +51,13 @@ class BfrSurfaces {
 
  private:
   std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> refiner_;
-  Bfr::RefinerSurfaceFactory<> factory_;  ///< whose cache the surfaces point into
+  Bfr::RefinerSurfaceFactory<> factory_;  ///< the surfaces refer to its cache
   std::vector<Bfr::Surface<double>> surfaces_;
   std::vector<std::size_t> starts_;
   std::vector<double> points_;
 };
 
-/// The least processor time, which a loaded machine stretches little.
+/// The least processor time of several runs. The load of the machine changes it little.
 double processor_seconds(const std::function<void()>& work) {
   double least = 1e9;
   for (int round = 0; round < kRounds; ++round) {
@@ -68,7 +68,7 @@ double processor_seconds(const std::function<void()>& work) {
   return least;
 }
 
-/// Random places, face by face, in the part of each next to its first corner.
+/// Random places, face by face, in the part of each face next to its first corner.
 std::vector<SurfacePlace> random_places(const std::vector<Index>& faces, bool quads, double part) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> side(0.0, part);

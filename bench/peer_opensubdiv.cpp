@@ -76,8 +76,8 @@ std::vector<PeerWork> opensubdiv_points(const Mesh& mesh, const Scheme& scheme, 
   return {{"OpenSubdiv, PrimvarRefiner",
            [refiner, control, out, levels] { interpolate(*refiner, levels, control->data(), out->data()); }},
           {"OpenSubdiv, cascaded stencils", [refiner, stencils, all, levels] {
-             // A level's stencils count from the first point of the level before. The evaluator's own start is left at
-             // 0: for four floats a point, 3.5 adds it twice.
+             // The stencils of a level count from the first point of the level before. The evaluator's own start is
+             // left at 0, because 3.5 adds it twice for four floats per point.
              int first = 0;
              int before = 0;
              for (int level = 1; level <= levels; ++level) {

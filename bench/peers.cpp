@@ -1,5 +1,5 @@
-/// peers_bench [PAGE [jets|butterfly]]: the tessellator, jets, or Modified Butterfly, against other libraries on the
-/// same work, in turn, in one run. Writes its part of docs/performance.md.
+/// peers_bench [PAGE [jets|butterfly]]: runs the tessellator, jets, or Modified Butterfly against other libraries on
+/// the same work, alternating, in one run. Writes its part of docs/performance.md.
 #include "bench/peers.h"
 
 #include <cstdio>
@@ -21,7 +21,7 @@ constexpr int kRounds = 7;
 
 struct Case {
   std::string model;
-  int refined;  ///< steps before, to make a fine control mesh
+  int refined;  ///< steps before, which make a fine control mesh
   int levels;
 };
 
@@ -37,7 +37,7 @@ Mesh load(const Case& which) {
   return refined;
 }
 
-/// Everything in memory that stays between calls.
+/// Everything that stays in memory between calls.
 struct Reused {
   Topology topology;
   Tessellator tessellator;
@@ -67,14 +67,14 @@ struct Reused {
   }
 };
 
-/// Of points and faces as they come out, not counting either's way of getting there.
+/// The bytes of the resulting points and faces, without the memory used to compute them.
 double output_bytes(const Tessellator& tessellator) {
   return 12.0 * tessellator.vertex_count() + 4.0 * tessellator.face_size() * tessellator.face_count();
 }
 
 std::string milliseconds(double seconds) { return number(1e3 * seconds, 3); }
 
-/// From an index list in fresh memory; ours first, then each peer with how many times longer it takes.
+/// Starts from an index list in fresh memory. Batten's time comes first, then each peer's as a multiple of it.
 void add_fresh(MarkdownTable& table, const Case& which) {
   const Mesh mesh = load(which);
   const Scheme scheme = choose_scheme(mesh);
@@ -110,7 +110,7 @@ void add_fresh(MarkdownTable& table, const Case& which) {
              milliseconds(seconds[0]), others, memory});
 }
 
-/// Into memory that is there already, connectivity kept.
+/// Writes into existing memory, with the connectivity built beforehand.
 void add_reused(MarkdownTable& table, const Case& which) {
   const Mesh mesh = load(which);
   const Scheme scheme = choose_scheme(mesh);

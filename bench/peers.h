@@ -14,22 +14,22 @@ struct PeerWork {
   std::function<void()> work;
 };
 
-/// Create, refine uniformly, interpolate in floats.
+/// Builds, refines uniformly and interpolates in floats.
 PeerWork opensubdiv_refine(const Mesh& mesh, const Scheme& scheme, int levels);
 
-/// Points again with connectivity kept: its PrimvarRefiner, and cascaded stencils on four floats a point.
+/// Computes the points again with the connectivity kept: by the PrimvarRefiner, and by cascaded stencils on four floats
+/// per point.
 std::vector<PeerWork> opensubdiv_points(const Mesh& mesh, const Scheme& scheme, int levels);
 
-/// Empty where the library was not there at build time. Catmull-Clark without tags, Loop, or Modified
-/// Butterfly.
+/// For Catmull-Clark without tags, Loop and Modified Butterfly. Empty if the library was missing at build time.
 std::vector<PeerWork> openmesh_refine(const Mesh& mesh, const Scheme& scheme, int levels);
 std::vector<PeerWork> cgal_refine(const Mesh& mesh, const Scheme& scheme, int levels);
-/// The same, Loop and Modified Butterfly (its filter repeats points where that has a boundary) only.
+/// For Loop and Modified Butterfly; VTK's filter repeats points where Modified Butterfly has a boundary.
 std::vector<PeerWork> vtk_refine(const Mesh& mesh, const Scheme& scheme, int levels);
 
 class MarkdownTable;
-/// Rows of jets at random places beside OpenSubdiv's Bfr, in doubles, one thread, processor time: ns a jet. The mesh's
-/// faces are quads, or triangles for Loop.
+/// Adds rows of jets at random places beside OpenSubdiv's Bfr: doubles, one thread, nanoseconds of processor time per
+/// jet. The mesh's faces are quads, or triangles for Loop.
 void add_jets(MarkdownTable& table, const std::string& name, const Mesh& mesh, SchemeKind kind);
 
 }  // namespace batten::bench

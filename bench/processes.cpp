@@ -1,4 +1,4 @@
-/// Whole processes: time, and the peak memory that each says of itself.
+/// Measures whole processes: time, and the peak memory that each reports.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,7 +16,7 @@ namespace batten::bench {
 
 namespace {
 
-/// Seconds of a child process from start to end.
+/// The seconds of a child process from start to end.
 double run_process(const std::vector<std::string>& command) {
   return seconds_of([&] {
     const pid_t child = fork();

@@ -1,4 +1,4 @@
-/// One picture of 1600x1200 with 2x2 samples a pixel: a torus of a million triangles, and the same with a bumpy skin.
+/// Draws 1600x1200 pictures with 2x2 samples per pixel: a torus of a million triangles, smooth and bumpy.
 #include <benchmark/benchmark.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-/// The iterations of the papers and of Eigen, as one would write them with care, for comparison.
+/// The iterations of the papers and of Eigen, implemented with care, for comparison.
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCore>
 #include <cmath>
@@ -21,7 +21,8 @@ Buffer<std::uint8_t> smooth_rows(const LimitMatrix& matrix) {
 
 }  // namespace
 
-/// Rows in the tiles' order, neighbours as 32-bit places, runs of rows of one pattern: closed meshes only.
+/// Rows in the tiles' order, with neighbours as 32-bit places and runs of rows of equal pattern. For closed meshes
+/// only.
 struct Sweeps::Parts {
   explicit Parts(const Subject& subject)
       : matrix(subject.topology, subject.scheme),

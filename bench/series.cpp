@@ -1,4 +1,4 @@
-/// The mesh series: smoothing beside whole sweeps over the mesh, and the bytes that those must move.
+/// The mesh series: smoothing beside whole sweeps over the mesh, and the bytes that the sweeps must move.
 #include <ctime>
 
 #include "batten/expand/mesh_series.h"
@@ -13,7 +13,8 @@ namespace {
 constexpr int kM = 2;
 constexpr int kPasses = 4;
 
-/// What an application of A as a whole sweep must move at least: eight neighbours' numbers, a row in, a row out.
+/// The least number of bytes that a whole sweep of A moves for each vertex: the indices of eight neighbours, a row in,
+/// a row out.
 constexpr double kSweepBytes = 8.0 * sizeof(Index) + 2.0 * 3.0 * sizeof(double);
 
 Values sweeps(const LimitMatrix& matrix, Values x) {

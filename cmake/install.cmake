@@ -1,5 +1,5 @@
-# What `cmake --install` puts where: the tool, the libraries with their public headers, what find_package and pkg-config read,
-# the documentation. Nothing in it holds a path of this machine, so that the folder may be moved.
+# What `cmake --install` installs and where: the tool, the libraries with their public headers, the files for find_package and
+# pkg-config, the documentation. No installed file contains a path of this machine, so the folder can be moved.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(BATTEN_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/batten)
@@ -13,7 +13,7 @@ function(batten_install_library target export component)
   install(EXPORT ${export} NAMESPACE batten:: DESTINATION ${BATTEN_CONFIG_DIR} COMPONENT development)
 endfunction()
 
-# What a static library links is its users' business too, a shared one has it already.
+# Users of a static library must link what it uses; a shared library is already linked with it.
 function(batten_install_pkg_config name description requires static_requires libraries static_libraries)
   set(BATTEN_PC_NAME ${name})
   set(BATTEN_PC_DESCRIPTION ${description})

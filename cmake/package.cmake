@@ -15,7 +15,7 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR})
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 
-# batten_deb(COMPONENT PACKAGE SECTION SUMMARY DESCRIPTION): what the package is, with its copyright and changelog.
+# batten_deb(COMPONENT PACKAGE SECTION SUMMARY DESCRIPTION): describes a package, with its copyright and changelog.
 macro(batten_deb component package section summary description)
   string(TOUPPER ${component} upper)
   set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${package})

@@ -1,6 +1,6 @@
-# Half the time of a whole build goes into reading Eigen, oneTBB and the standard library once a source. With
-# BATTEN_PRECOMPILE they are read once a target. The presets for programs do so; the one for clang does not, and so
-# finds a source that leans on an include it does not have.
+# Half of the time of a whole build is spent on reading Eigen, oneTBB and the standard library for each source. With
+# BATTEN_PRECOMPILE they are read once for each target. The presets for programs use it. The preset for clang does not, and
+# therefore finds sources that lack an include.
 function(batten_precompile target)
   if(BATTEN_PRECOMPILE)
     target_precompile_headers(${target} PRIVATE <algorithm> <array> <cmath> <functional> <limits> <memory> <numeric>

@@ -1,5 +1,5 @@
 # A header is public when one that users include (batten/batten.h, render.h, plot.h and panels.h of batten/render) includes it, directly or not.
-# Those are installed and described in the reference; the others are nobody's business.
+# Those are installed and described in the reference; the others are for use inside the library.
 function(batten_public_headers result)
   set(base ${PROJECT_SOURCE_DIR}/src)
   set(waiting ${ARGN})

@@ -1,5 +1,5 @@
 # The target `reference`: the public headers as pages, with docs/architecture.md in front. It fails on any warning and on
-# any type or free function without a description; members may say it by their name alone.
+# any type or free function without a description. Members may have none.
 find_package(Doxygen 1.9 QUIET)
 if(NOT DOXYGEN_FOUND)
   return()
@@ -10,7 +10,7 @@ set(DOXYGEN_PROJECT_NUMBER ${PROJECT_VERSION})
 set(DOXYGEN_OUTPUT_DIRECTORY ${folder})
 set(DOXYGEN_STRIP_FROM_PATH ${PROJECT_SOURCE_DIR}/src)
 set(DOXYGEN_STRIP_FROM_INC_PATH ${PROJECT_SOURCE_DIR}/src)
-# Our "\file" is followed by what the file is for, Doxygen's by a name.
+# The "\file" of these headers is followed by the file's purpose, Doxygen's by a name.
 set(DOXYGEN_FILTER_PATTERNS "*.h=\"sed -e '1s|^/// .file |/// \\\\file\\n/// |'\"")
 set(DOXYGEN_VERBATIM_VARS DOXYGEN_FILTER_PATTERNS)
 set(DOXYGEN_USE_MDFILE_AS_MAINPAGE docs/architecture.md)

@@ -9,7 +9,8 @@
 
 namespace batten::models {
 
-/// The noise is about normal, a twentieth of a unit cell; sums of whole numbers are the same everywhere.
+/// Sums of whole random numbers are equal on every machine. The noise is approximately normal, with a deviation of a
+/// twentieth of a unit cell.
 Mesh bracket_scan() {
   constexpr double kDeviation = 0.012;
   const Mesh control = bracket();
@@ -45,7 +46,8 @@ std::vector<Model> all_models() {
                                {"tetrahedron", tetrahedron()}, {"cube", cube()},
                                {"octahedron", octahedron()},   {"dodecahedron", dodecahedron()},
                                {"icosahedron", icosahedron()}};
-  // Far more than a picture shows, and the same text wherever sines and cosines differ in their last bits.
+  // Rounding keeps far more digits than a picture shows and makes the text independent of the last bits of sine and
+  // cosine.
   constexpr double kGrain = 1e4;
   for (Model& model : models) {
     const double grain = model.mesh.vertex_count() <= 20 ? 1e6 : kGrain;

@@ -7,7 +7,7 @@ namespace {
 
 using Neighbours = std::vector<std::vector<Index>>;
 
-/// Along the edges; each one twice, once from each of its faces.
+/// The neighbours along the edges, each one twice, once from each face of the edge.
 Neighbours neighbours_of(const Mesh& mesh) {
   Neighbours neighbours(static_cast<std::size_t>(mesh.vertex_count()));
   for (Index f = 0; f < mesh.face_count(); ++f) {
@@ -42,7 +42,7 @@ void project(Points& points) {
 }  // namespace
 
 Mesh ball_of(const Mesh& mesh, double radius) {
-  constexpr int kInSpace = 120;  // until legs and ears are gone and nothing hides from the centre
+  constexpr int kInSpace = 120;  // until legs and ears are gone and every vertex is visible from the centre
   constexpr int kOnSphere = 400;
   const Neighbours neighbours = neighbours_of(mesh);
   Mesh ball = mesh;

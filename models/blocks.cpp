@@ -12,7 +12,7 @@ namespace {
 using Cell = std::array<int, 3>;
 using Solid = std::function<bool(const Cell&)>;
 
-/// The skin of a set of unit cells: quads between full and empty, vertices at the integer points.
+/// The surface of a set of unit cells: quads between full and empty cells, with vertices at integer points.
 struct Skin {
   Mesh mesh;
   std::vector<Cell> corners;  ///< the integer point of each vertex
@@ -37,7 +37,7 @@ Skin skin_of(const Solid& solid, const Cell& lowest, const Cell& highest) {
             Cell beyond = cell;
             beyond[axis] += 2 * side - 1;
             if (solid(beyond)) continue;
-            // Counter-clockwise seen from +axis; the other way round for the lower side.
+            // Counter-clockwise seen from +axis; the opposite order for the lower side.
             const std::size_t u = (axis + 1) % 3;
             const std::size_t v = (axis + 2) % 3;
             std::array<Index, 4> quad{};
@@ -83,7 +83,7 @@ bool bracket_cell(const Cell& cell) {
   return foot || back || rib;
 }
 
-/// Polygons that are still being cut, and which vertices stand around holes (on which side: 1 or 2).
+/// Polygons during construction, and the vertices around holes with their side (1 or 2).
 struct Draft {
   std::vector<Eigen::Vector3d> points;
   std::vector<std::vector<Index>> faces;
@@ -92,7 +92,8 @@ struct Draft {
 
 int sign(double x) { return std::abs(x) < 1e-9 ? 0 : (x > 0.0 ? 1 : -1); }
 
-/// Replaces the four quads around `centre` by eight around an octagon; the octagon's vertices by their direction.
+/// Replaces the four quads around `centre` by eight around an octagon. Returns the octagon's vertices by their
+/// direction.
 std::map<std::array<int, 3>, Index> cut_octagon(Draft& draft, Index centre, int side) {
   const Eigen::Vector3d middle = draft.points[static_cast<std::size_t>(centre)];
   std::map<std::array<int, 3>, Index> ring;
@@ -124,8 +125,8 @@ std::map<std::array<int, 3>, Index> cut_octagon(Draft& draft, Index centre, int 
   return ring;
 }
 
-/// A hole through a plate, from one face's vertex to the other's; `turn` lists the eight directions around the axis,
-/// counter-clockwise seen from `front`.
+/// Makes a hole through a plate from a vertex of one face to one of the other. `turn` lists the eight directions around
+/// the axis, counter-clockwise seen from `front`.
 void drill(Draft& draft, Index front, Index back, const std::array<std::array<int, 3>, 8>& turn) {
   const auto near = cut_octagon(draft, front, 1);
   const auto far = cut_octagon(draft, back, 2);
@@ -141,7 +142,7 @@ Eigen::Vector3d normal_of(const Draft& draft, const std::vector<Index>& face) {
   return (at(2) - at(0)).cross(at(3) - at(1)).normalized();
 }
 
-/// Convex edges stay sharp for ever, concave ones get a fillet; the walls of the holes are round.
+/// Convex edges stay sharp forever, concave ones get a fillet, and the walls of the holes are round.
 std::vector<Crease> bracket_creases(const Draft& draft) {
   std::map<std::pair<Index, Index>, std::size_t> face_of;
   for (std::size_t f = 0; f < draft.faces.size(); ++f) {
@@ -165,7 +166,7 @@ std::vector<Crease> bracket_creases(const Draft& draft) {
   return creases;
 }
 
-/// The draft as a mesh, without the vertices that no face uses any more.
+/// The draft as a mesh without unused vertices.
 Mesh finished(Draft draft) {
   std::vector<Index> renumbered(draft.points.size(), -1);
   std::vector<Eigen::Vector3d> points;
@@ -218,7 +219,7 @@ Mesh bracket() {
     drill(draft, skin.vertices.at({1, y, 4}), skin.vertices.at({0, y, 4}), about_x);
   }
   Mesh mesh = finished(std::move(draft));
-  // The front is -y: the foot comes towards the viewer.
+  // The front is -y, so the foot points towards the viewer.
   const Eigen::VectorXd x = mesh.points.col(0);
   mesh.points.col(0) = mesh.points.col(1).array() - 1.5;
   mesh.points.col(1) = -x;
@@ -236,7 +237,7 @@ double capsule(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::
   return (p - a - t * (b - a)).norm() - radius;
 }
 
-constexpr int kFineness = 2;  ///< cells in a unit of the creature
+constexpr int kFineness = 2;  ///< cells per unit of the creature
 
 /// x to the creature's left, y backwards, z up.
 bool creature_cell(const Cell& cell) {
@@ -252,7 +253,7 @@ bool creature_cell(const Cell& cell) {
 }
 
 double creature_field(const Eigen::Vector3d& point) {
-  // Mirrored, so that the field has one of each leg and ear.
+  // The point is mirrored, so that the field has only one of each leg and ear.
   const Eigen::Vector3d p(std::abs(point.x() - 1.5), point.y(), point.z());
   double field = capsule(p, {0, 1.3, 2.4}, {0, 3.6, 2.5}, 1.5);
   for (const double y : {0.75, 4.2}) field = blend(field, capsule(p, {0.85, y, 1.6}, {0.95, y, 0.35}, 0.58), 0.5);
@@ -271,7 +272,7 @@ Mesh creature() {
   std::map<Index, std::vector<Index>> neighbours;
   for (Index c = 0; c < static_cast<Index>(skin.mesh.face_vertices.size()); ++c)
     neighbours[skin.mesh.face_vertices[c]].push_back(skin.mesh.face_vertices[c / 4 * 4 + (c + 1) % 4]);
-  // Spread evenly and pulled onto the shape, in turns.
+  // Alternates between spreading the vertices evenly and moving them onto the shape.
   for (int round = 0; round < 16; ++round) {
     const Points old = points;
     for (const auto& [vertex, others] : neighbours) {
@@ -282,7 +283,7 @@ Mesh creature() {
     }
   }
   points.col(0).array() -= 1.5;
-  // The left half is the right half's mirror image, to the last bit.
+  // The left half is exactly the mirror image of the right half.
   for (std::size_t i = 0; i < skin.corners.size(); ++i) {
     Cell mirrored = skin.corners[i];
     mirrored[0] = 3 * kFineness - mirrored[0];

@@ -7,7 +7,7 @@ namespace {
 
 constexpr Index kFacesOfALeg = 70;
 
-/// As a scan or an export may leave it: each leg has its own copy of the vertices along the seams.
+/// Separates the legs as a scan or an export may do: each leg has its own copy of the vertices along the seams.
 Mesh legs_apart(const Mesh& whole) {
   Mesh apart;
   std::vector<Index> copy(static_cast<std::size_t>(whole.vertex_count()), -1);
@@ -42,7 +42,7 @@ Index add_vertex(Mesh& mesh, const Eigen::RowVector3d& point) {
   return mesh.vertex_count() - 1;
 }
 
-/// A row of quads that stands on the sides from corner 0 to corner 1 of faces `first`, `first` + 8, ...: on a leg.
+/// Adds a row of quads on the sides from corner 0 to corner 1 of faces `first`, `first` + 8, ..., which are on a leg.
 void add_fin(Mesh& mesh, Index first, Index count) {
   const Eigen::RowVector3d up(0.0, 0.0, 0.35);
   Index before = -1;
@@ -64,10 +64,10 @@ Mesh broken_tripod(const Mesh& tripod) {
   reverse_leg(mesh, 1);
   add_fin(mesh, 16, 4);
   const Index* quad = &mesh.face_vertices[mesh.face_offsets[30]];
-  mesh.add_face({quad[2], quad[3], quad[0], quad[1]});  // a face that is there already
+  mesh.add_face({quad[2], quad[3], quad[0], quad[1]});  // repeats a face
   quad = &mesh.face_vertices[mesh.face_offsets[40]];
-  mesh.add_face({quad[0], quad[1], quad[1], quad[0]});  // one without an area
-  add_vertex(mesh, {0.0, 0.0, 0.0});                    // a vertex of no face
+  mesh.add_face({quad[0], quad[1], quad[1], quad[0]});  // a face without area
+  add_vertex(mesh, {0.0, 0.0, 0.0});                    // a vertex without a face
   return mesh;
 }
 

@@ -23,13 +23,13 @@ Points to_points(const std::vector<Vector3d>& points) {
   return rows;
 }
 
-/// Quads between two rings of a tube that runs from `from` to `to`: both clockwise for one who looks along it.
+/// Adds quads between two rings of a tube that runs from `from` to `to`. Both rings are clockwise seen along the tube.
 void add_tube(Mesh& mesh, const std::vector<Index>& from, const std::vector<Index>& to) {
   const std::size_t n = from.size();
   for (std::size_t i = 0; i < n; ++i) mesh.add_face({from[i], to[i], to[(i + 1) % n], from[(i + 1) % n]});
 }
 
-/// Two pipes of radius 1 along x and y. Where they touch, their normals agree and there is nothing to fillet.
+/// Two pipes of radius 1 along x and y. Where they touch, their normals are equal and no fillet is needed.
 double crossing_pipes(const Vector3d& p) {
   const double along_x = std::hypot(p.y(), p.z());
   const double along_y = std::hypot(p.x(), p.z());
@@ -37,7 +37,7 @@ double crossing_pipes(const Vector3d& p) {
   return blend(along_x - 1.0, along_y - 1.0, 0.9 * (1.0 - agreement));
 }
 
-/// The ends of the four pipes of a joint in the plane z = 0, a quarter turn apart.
+/// The directions of the four pipes of a joint in the plane z = 0, a quarter turn apart.
 Vector3d pipe_axis(int pipe) {
   constexpr std::array<int, 4> kCosines = {1, 0, -1, 0};
   return {static_cast<double>(kCosines[static_cast<std::size_t>(pipe % 4)]),
@@ -50,7 +50,8 @@ Mesh joint(int around, int rings) {
   const Field field = crossing_pipes;
   const int half = around / 2;
   std::vector<Vector3d> points;
-  // Seams between neighbouring pipes: half a ring each, no vertex on the line x = y = 0 where all four pipes meet.
+  // Seams between neighbouring pipes: half a ring each, with no vertex on the line x = y = 0, where all four pipes
+  // meet.
   std::array<std::vector<Index>, 4> seams;
   const auto angle = [&](int i) { return kTurn * (i + 0.5) / around; };
   for (int pipe = 0; pipe < 4; ++pipe) {
@@ -82,7 +83,7 @@ Mesh joint(int around, int rings) {
       ring = next;
     }
   }
-  // Above and below, where the four pipes leave a square.
+  // Above and below, the four pipes leave a square open.
   mesh.add_face({seams[0][0], seams[1][0], seams[2][0], seams[3][0]});
   mesh.add_face({seams[3].back(), seams[2].back(), seams[1].back(), seams[0].back()});
   mesh.points = to_points(points);
@@ -93,7 +94,7 @@ Mesh joint(int around, int rings) {
 
 Mesh pipe_joint() { return joint(12, 5); }
 
-/// All diagonals alike, so that no rounding decides.
+/// All diagonals have the same direction, so rounding decides nothing.
 Mesh coarse_joint() {
   const Mesh quads = joint(8, 2);
   Mesh mesh;
@@ -116,7 +117,7 @@ Vector3d outwards(double third) {
   return {std::cos(turn), std::sin(turn), 0.0};
 }
 
-/// A leg's middle line: out of the hub, then bending down to the foot.
+/// The middle line of a leg: it leaves the hub and then bends down to the foot.
 Vector3d leg_line(double third, double t) {
   return kHub + 1.75 * std::sin(0.8 * t) / std::sin(0.8) * outwards(third) - 1.45 * t * t * Vector3d::UnitZ() -
          0.05 * t * Vector3d::UnitZ();
@@ -124,7 +125,7 @@ Vector3d leg_line(double third, double t) {
 
 double leg_radius(double t) { return 0.50 - 0.22 * t; }
 
-/// Spheres along the leg, near enough to each other to be a tube.
+/// Spheres along the leg, close enough to form a tube.
 double leg(double third, const Vector3d& p) {
   double nearest = 1e9;
   for (int i = 0; i <= 200; ++i) {
@@ -156,7 +157,8 @@ constexpr int kLegRings = 8;
 
 double leg_angle(int i) { return kTurn * i / kLegAround; }
 
-/// Rings 1 to kLegRings - 1 down the leg, at first tilted as the joint's seam is; the last half way round the foot.
+/// Adds ring `ring` in 1 to kLegRings - 1 down the leg. The first ones are tilted like the joint's seam; the last is
+/// half way around the foot.
 std::vector<Index> add_leg_ring(std::vector<Vector3d>& points, double third, int ring) {
   std::vector<Index> vertices;
   for (int i = 0; i < kLegAround; ++i) {
@@ -176,7 +178,8 @@ std::vector<Index> add_leg_ring(std::vector<Vector3d>& points, double third, int
 Mesh tripod() {
   const Field field = three_legs;
   std::vector<Vector3d> points;
-  // Between legs k and k + 1: three vertices, from up to down. On each leg: one above, one below. And two poles.
+  // Between legs k and k + 1 there are three vertices, from top to bottom. Each leg has one above and one below, and
+  // there are two poles.
   std::array<std::array<Index, 3>, 3> seams;
   std::array<Index, 3> above;
   std::array<Index, 3> below;
@@ -196,7 +199,7 @@ Mesh tripod() {
   for (std::size_t k = 0; k < 3; ++k) {
     const auto third = static_cast<double>(k);
     const std::size_t previous = (k + 2) % 3;
-    // From above over the left, counter-clockwise seen against the leg's direction.
+    // Starts above and goes over the left, counter-clockwise seen against the leg's direction.
     std::vector<Index> ring = {above[k], seams[k][0],        seams[k][1],        seams[k][2],
                                below[k], seams[previous][2], seams[previous][1], seams[previous][0]};
     for (int r = 1; r <= kLegRings; ++r) {
@@ -227,7 +230,7 @@ Mesh torus_knot() {
   for (int i = 0; i < kAlong; ++i) {
     const double t = kTurn * i / kAlong;
     const Vector3d along = (curve(t + 1e-4) - curve(t - 1e-4)).normalized();
-    // The torus's own normal closes after a round, so the tube does not have to be untwisted.
+    // The torus's own normal returns to itself after a round, so the tube needs no untwisting.
     const Vector3d out(std::cos(3.0 * t) * std::cos(2.0 * t), std::cos(3.0 * t) * std::sin(2.0 * t), std::sin(3.0 * t));
     const Vector3d first = (out - out.dot(along) * along).normalized();
     const Vector3d second = along.cross(first);

@@ -1,7 +1,7 @@
-/// \file The sample models: small control meshes that are worth a picture, made of formulas.
+/// \file The sample models: small control meshes computed from formulas.
 ///
-/// z is up, the front is -y. Every model is an orientable 2-manifold, faces counter-clockwise seen from outside.
-/// Vertices are samples of the shape that is meant, so that a surface that passes through them is that shape.
+/// z is up, the front is -y. Every model is an orientable 2-manifold with faces counter-clockwise seen from outside.
+/// The vertices are points of the intended shape, so that a surface through them approximates it.
 #pragma once
 #include <Eigen/Geometry>
 #include <functional>
@@ -13,21 +13,21 @@
 namespace batten::models {
 
 Mesh pipe_joint();    ///< two crossing pipes with a fillet, four open ends; 8 vertices of valence 5
-Mesh coarse_joint();  ///< the same of as few triangles as show it, 8 around each pipe; valences 4 to 7
+Mesh coarse_joint();  ///< the same joint with few triangles, 8 around each pipe; valences 4 to 7
 Mesh tripod();        ///< three legs that meet in a hub; closed
 Mesh torus_knot();    ///< a tube along a trefoil, 72 by 8; closed
 Mesh bracket();       ///< an angle bracket with a rib and four bolt holes; creases of 10 and of 2.5
 Mesh creature();      ///< a body, four legs, a head with a snout and ears, a tail; closed
 Mesh pyramid();       ///< five vertices, six triangles: a square pyramid, taller than wide
 
-/// The bracket refined twice, its creases untold, with noise: what a scanner makes of it.
+/// The bracket refined twice, without creases and with noise, like a scan.
 Mesh bracket_scan();
 
-/// The same faces around a sphere, evenly spread as far as they can be: what a closed mesh of genus 0 morphs into.
+/// The same faces on a sphere, spread as evenly as possible: the target of morphs of closed meshes of genus 0.
 Mesh ball_of(const Mesh& mesh, double radius);
 
-/// The tripod as a bad export may leave it: legs that share no vertices, one inside out; a fin on another; a face
-/// twice, a face without area, a vertex without a face.
+/// The tripod with typical faults of an export: legs that share no vertices, one of them inside out; a fin on another;
+/// a repeated face, a face without area, a vertex without a face.
 Mesh broken_tripod(const Mesh& tripod);
 
 struct Model {
@@ -35,25 +35,25 @@ struct Model {
   Mesh mesh;
 };
 
-/// All of them and the regular solids, with coordinates rounded so that files stay small.
+/// All models and the regular solids, with coordinates rounded so that files stay small.
 std::vector<Model> all_models();
 
 /// Other shapes of the same faces, for `batten morph`.
 std::vector<Model> morph_models();
 
-/// Those that no surface can be made of, for `batten repair`.
+/// Meshes without a surface, for `batten repair`.
 std::vector<Model> broken_models();
 
-/// The distance to a shape's surface, negative inside: exact or a little less.
+/// The distance to a shape's surface or a little less, negative inside.
 using Field = std::function<double(const Eigen::Vector3d&)>;
 
-/// min(a, b) with a fillet about as wide as `width` where they are close (Quilez's quadratic).
+/// min(a, b) with a fillet about as wide as `width` where both are close (Quilez's quadratic).
 double blend(double a, double b, double width);
 
-/// From the origin of the ray, which is inside, outwards to the surface.
+/// The point where a ray from an origin inside reaches the surface.
 Eigen::Vector3d cast(const Field& field, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction);
 
-/// Down or up the gradient, onto the surface.
+/// Moves a point along the gradient onto the surface.
 Eigen::Vector3d settle(const Field& field, Eigen::Vector3d point);
 
 }  // namespace batten::models

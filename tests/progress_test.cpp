@@ -1,4 +1,4 @@
-/// Every operation that may take long reports how far it is, and stops when it is asked to.
+/// Every operation that may take long reports its progress and can be cancelled.
 #include <gtest/gtest.h>
 
 #include <thread>

@@ -1,4 +1,4 @@
-/// \file A std::vector that does not zero what is about to be overwritten, and asks for huge pages when it is large.
+/// \file A std::vector that leaves new numbers uninitialised and asks the system for huge pages when it is large.
 #pragma once
 #include <algorithm>
 #include <cstddef>
@@ -15,9 +15,10 @@
 
 namespace batten {
 
-/// First touch of fresh memory costs ten times its writing with small pages, so allocations from 4 MiB up are aligned
-/// to 2 MiB and advised; others start at a cache line, but for the short ones, which malloc serves several times
-/// sooner. Elements are default-initialised: resize() leaves numbers as they come.
+/// The first touch of fresh memory costs ten times as much as writing it when pages are small. Allocations of 4 MiB and
+/// more are therefore aligned to 2 MiB, and the system is advised to use huge pages. Shorter ones start at a cache
+/// line, except below 1 KiB, where malloc is several times faster. Elements are default-initialised: resize() leaves
+/// numbers undefined.
 template <typename T>
 struct BufferAllocator {
   using value_type = T;
@@ -58,7 +59,7 @@ struct BufferAllocator {
   }
 };
 
-/// A std::vector of numbers, with that allocator.
+/// A std::vector of numbers that uses this allocator.
 template <typename T>
 using Buffer = std::vector<T, BufferAllocator<T>>;
 

@@ -3,7 +3,7 @@
 
 namespace batten {
 
-/// The compiler's vector type: four columns of a row, or a point and a number to spare.
+/// The compiler's vector type. It holds four columns of a row, or a point and one unused number.
 using Double4 = double __attribute__((vector_size(32)));
 
 }  // namespace batten

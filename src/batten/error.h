@@ -1,11 +1,11 @@
-/// \file The one exception of the library.
+/// \file The only exception that the library throws.
 #pragma once
 #include <stdexcept>
 #include <string>
 
 namespace batten {
 
-/// What went wrong, for a program; the message says it for a person, with the element and the way out.
+/// What went wrong, as a code for programs. The message tells a person which element is wrong and what to do about it.
 enum class ErrorCode {
   BadArgument,        ///< an option or a parameter out of its range
   BadShape,           ///< a matrix whose rows or columns do not fit
@@ -15,21 +15,21 @@ enum class ErrorCode {
   RepeatedFace,       ///< two faces with the same vertices in the same order
   NonManifoldEdge,    ///< more than two faces at an edge
   NonManifoldVertex,  ///< faces that meet only in a vertex
-  InconsistentFaces,  ///< neighbours of opposite orientation; flipping some would do
-  NonOrientable,      ///< no choice of orientations would do (a Moebius strip)
-  NotTriangles,       ///< Loop on faces that are not triangles
+  InconsistentFaces,  ///< neighbouring faces of opposite orientation; flipping some of them would repair it
+  NonOrientable,      ///< no choice of orientations is consistent (a Moebius strip)
+  NotTriangles,       ///< Loop or a Butterfly on faces that are not triangles
   SingularSystem,     ///< no surface passes through arbitrary targets
-  NotConverged,       ///< the iteration cap came before the tolerance
+  NotConverged,       ///< the iterations reached their limit before the tolerance
   FileNotReadable,
   FileNotWritable,
-  BadFile,        ///< the text or the bytes are not what the format asks for
-  UnknownFormat,  ///< a file name extension that no reader or writer knows
+  BadFile,        ///< the text or the bytes do not follow the format
+  UnknownFormat,  ///< no reader or writer exists for the file name's extension
   TooLarge,       ///< more elements than a 32-bit index can count
   Cancelled,      ///< the progress callback asked to stop
   NotAvailable    ///< an optional part that this build lacks
 };
 
-/// A code for the program, a sentence for the person.
+/// An error code for the program and a sentence for the person.
 class Error : public std::runtime_error {
  public:
   Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}

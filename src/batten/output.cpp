@@ -25,7 +25,7 @@ namespace {
   throw Error(ErrorCode::FileNotWritable, name + ": cannot be written: " + why);
 }
 
-/// The descriptor that a name stands for; -1 for an ordinary name.
+/// The descriptor that this name stands for, or -1 for an ordinary name.
 int named_descriptor(const std::string& path) {
   if (path == "-" || path == "/dev/stdout") return STDOUT_FILENO;
   if (path == "/dev/stderr") return STDERR_FILENO;
@@ -50,7 +50,7 @@ void make_parent_folder(const fs::path& target) {
   }
 }
 
-/// A name in the target's folder that no other call uses, short enough for every file system.
+/// A name in the target's folder that no other call uses and that is short enough for every file system.
 fs::path temporary_beside(const fs::path& target) {
   constexpr std::size_t kKeptName = 100;
   static std::atomic<unsigned> calls{0};
@@ -92,13 +92,13 @@ void OutputFile::report() const {
 }
 
 void OutputFile::write(const void* bytes, std::size_t count) {
-  // Short pieces, so that a slow disk does not keep a user waiting who cancels.
+  // Writing in pieces lets a user cancel while the disk is slow.
   constexpr std::size_t kMost = std::size_t{1} << 23;
   const char* at = static_cast<const char*>(bytes);
   while (count > 0) {
     report();
     const ssize_t written = ::write(descriptor_, at, std::min(count, kMost));
-    // A signal may be the user's wish to stop while a pipe is full: ask again.
+    // The signal may be the user's request to stop, so the callback is asked again.
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) throw_unwritable(name_, std::strerror(errno));
     at += written;
@@ -128,7 +128,7 @@ void write_atomically(const std::string& path, const std::function<void(const st
     return;
   }
   std::error_code error;
-  // A link stays a link: the file that it names is replaced.
+  // A link is kept: the file that it names is replaced.
   const fs::path target = fs::is_symlink(path, error) ? fs::weakly_canonical(path, error) : fs::path(path);
   if (target.empty()) throw_unwritable(path, error.message());
   const bool exists = fs::exists(target, error);

@@ -1,4 +1,4 @@
-/// \file Files that are written whole or not at all, where every failure becomes an Error.
+/// \file Files are written completely or not at all, and every failure becomes an Error.
 #pragma once
 #include <cstddef>
 #include <functional>
@@ -10,35 +10,35 @@
 
 namespace batten {
 
-/// Calls write(temporary_path), then renames the temporary to path; removes the temporary when write throws or the
-/// rename fails. The temporary stands in the same folder, which is made where it is missing. A link stays, its target
-/// is replaced and keeps its permissions. Devices, pipes, "-" and /dev/stdout cannot be renamed: there write(path) is
-/// called. Throws Error(FileNotWritable).
+/// Calls write(temporary_path) and then renames the temporary file to path. It removes the temporary file when write
+/// throws or when the rename fails. The temporary file is in the folder of path, which is created if necessary. Where
+/// path is a link, the link stays and its target is replaced; the permissions of an existing file are kept. Devices,
+/// pipes, "-" and /dev/stdout cannot be renamed: for those write(path) is called. Throws Error(FileNotWritable).
 void write_atomically(const std::string& path, const std::function<void(const std::string&)>& write);
 
-/// These bytes and nothing else, by write_atomically; "-" is standard output. Throws Error(FileNotWritable).
+/// Writes these bytes with write_atomically; "-" is standard output. Throws Error(FileNotWritable).
 void write_bytes(const std::string& path, const Buffer<unsigned char>& bytes);
 
 namespace io {
 
-/// "-" and the names that stand for open descriptors (/dev/stdout, /dev/stderr, /dev/fd/N) write to those.
-/// Every member throws Error(FileNotWritable) with the system's reason, and write() Error(Cancelled); the file is
-/// truncated when opened.
+/// A file that is open for writing. "-" and the names of open descriptors (/dev/stdout, /dev/stderr, /dev/fd/N) write
+/// to those descriptors. Opening truncates the file. Every member throws Error(FileNotWritable) with the system's
+/// reason; write() also throws Error(Cancelled).
 class OutputFile {
  public:
-  /// `name` is what messages call the file; empty: the path. write() asks `progress` whether to go on.
+  /// `name` is what messages call the file, the path if empty. write() reports to `progress`, which may cancel.
   explicit OutputFile(const std::string& path, const std::string& name = "", const Progress& progress = {});
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
   const std::string& name() const { return name_; }
-  /// For the progress: how many rows all calls of write_rows (text_output.h) will have.
+  /// Sets how many rows all calls of write_rows (io/text_output.h) will write together, for the progress.
   void expect_rows(std::ptrdiff_t count) { expected_rows_ = count; }
   void rows_written(std::ptrdiff_t count) { rows_ += count; }
   void write(const void* bytes, std::size_t count);
   void write(std::string_view text) { write(text.data(), text.size()); }
-  /// A full disk may show only here.
+  /// Closes the file. A full disk may only be noticed here.
   void close();
 
  private:
@@ -51,7 +51,7 @@ class OutputFile {
   int descriptor_ = -1;
 };
 
-/// True where renaming over `path` would be wrong: descriptors, devices, pipes.
+/// True for descriptors, devices and pipes, which must not be replaced by a rename.
 bool is_special_target(const std::string& path);
 
 }  // namespace io

@@ -1,14 +1,14 @@
-/// \file How long work reports and is cancelled: what stands behind every `progress` parameter.
+/// \file How long operations report their progress and are cancelled.
 #pragma once
 #include "batten/types.h"
 
 namespace batten {
 
-/// Calls progress(done), if there is one. Throws Error(Cancelled) when it returns false.
+/// Calls progress(done) if there is a callback. Throws Error(Cancelled) when it returns false.
 void report_progress(const Progress& progress, double done);
 
-/// A callback for a part of an operation: the part's 0 and 1 are the whole's `begin` and `end`. Empty where `progress`
-/// is, which must outlive it.
+/// Returns a callback for a part of an operation: 0 and 1 of the part become `begin` and `end` of the whole. It is
+/// empty if `progress` is empty. `progress` must outlive it.
 Progress progress_within(const Progress& progress, double begin, double end);
 
 }  // namespace batten

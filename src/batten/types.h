@@ -1,4 +1,4 @@
-/// \file The words that every room uses: indices, values, and the choices that a mesh file can make about its surface.
+/// \file Types that every room uses: indices, values, and the choices about its surface that a mesh file can hold.
 #pragma once
 #include <Eigen/Core>
 #include <cstdint>
@@ -6,51 +6,50 @@
 
 namespace batten {
 
-/// Counts vertices, faces, half-edges and the rest.
+/// An index or a count of vertices, faces, half-edges and other elements.
 using Index = std::int32_t;
 
-/// N-by-k, row i belongs to element i. Everything linear works on these; positions are k = 3. DontAlign: their memory
-/// comes from malloc, whatever a program and the library were compiled for, so that either may free what the other
-/// made.
+/// An N-by-k matrix whose row i belongs to element i. All linear operators take it; positions have k = 3. DontAlign
+/// makes its memory come from malloc, whatever instruction set a program and the library were compiled for, so that
+/// each may free what the other allocated.
 using Values = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor | Eigen::DontAlign>;
-/// N-by-3, likewise.
+/// N-by-3, with the same layout.
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor | Eigen::DontAlign>;
-/// N numbers, one an element, likewise.
+/// N numbers, one for each element.
 using Scalars = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor | Eigen::DontAlign>;
-/// k numbers, as in a row of Values, likewise.
+/// k numbers, as in a row of Values.
 using ValueRow = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor | Eigen::DontAlign>;
-/// A parameter type: binds to Values, to Points and to blocks of rows or columns without a copy.
+/// A parameter type that binds to Values, to Points and to blocks of rows or columns without a copy.
 using ConstValuesRef = const Eigen::Ref<const Values, 0, Eigen::OuterStride<>>&;
-/// Likewise, to be written to.
+/// The same for values that are written.
 using ValuesRef = Eigen::Ref<Values, 0, Eigen::OuterStride<>>;
 
-/// Catmull-Clark takes faces of any size, the others triangles. The surfaces of the first two only follow their control
-/// points; those of the other two pass through them.
+/// Catmull-Clark takes faces of any size, the other schemes take triangles. The surfaces of Catmull-Clark and Loop
+/// approximate their control points; those of the two Butterflies pass through them.
 enum class SchemeKind {
   CatmullClark,
   Loop,
-  Butterfly,         ///< Dyn, Gregory and Levin's, the same stencil everywhere: smooth at valences 4 to 7 only
+  Butterfly,         ///< Dyn, Gregory and Levin's, one stencil for all edges: smooth at valences 4 to 7 only
   ModifiedButterfly  ///< Zorin, Schroeder and Sweldens': smooth at every valence
 };
 
-/// True where the limit surface passes through the control points: the two Butterflies. Their semi-sharp creases last
-/// for as many levels as their sharpness says, rounded up, under either CreaseMethod.
+/// True where the limit surface passes through the control points: for the two Butterflies. Their semi-sharp creases
+/// last for as many levels as their sharpness says, rounded up, under either CreaseMethod.
 constexpr bool is_interpolating(SchemeKind kind) {
   return kind == SchemeKind::Butterfly || kind == SchemeKind::ModifiedButterfly;
 }
 
 /// How the Butterfly schemes make points beside a boundary or a crease.
 enum class ButterflyBoundary {
-  CreaseRules,  ///< rules of their own, exact for quadratic polynomials (at extraordinary boundary vertices linear
-                ///< ones)
-  Reflect       ///< the paper's: points beyond the boundary by reflection; exact for linear polynomials
+  CreaseRules,  ///< special rules, exact for quadratic polynomials (at extraordinary boundary vertices for linear ones)
+  Reflect       ///< the paper's rule: points beyond the boundary by reflection; exact for linear polynomials
 };
 
 /// What the surface does at a boundary (OpenSubdiv's names).
 enum class BoundaryRule {
-  None,           ///< faces at the boundary are not part of the surface; they only shape it
-  EdgeAndCorner,  ///< boundary curves, and vertices of a single face stay where they are
-  EdgeOnly        ///< boundary curves, smooth at vertices of a single face too
+  None,           ///< faces at the boundary shape the surface but are not part of it
+  EdgeAndCorner,  ///< boundaries are curves; vertices of a single face keep their position
+  EdgeOnly        ///< boundaries are curves, which are smooth at vertices of a single face too
 };
 
 /// How semi-sharp sharpness decays from level to level.
@@ -62,8 +61,8 @@ enum class TriangleRule { Catmark, Smooth };
 /// A sharpness of 10 or more is infinite, as in OpenSubdiv.
 inline constexpr float kInfiniteSharpness = 10.0F;
 
-/// Called now and then, by the thread that called the operation, with the done fraction in [0, 1]; return false to
-/// cancel (the operation throws Error(Cancelled) within a fraction of a second).
+/// A callback that an operation calls now and then with the completed fraction in [0, 1], from the thread that called
+/// the operation. If it returns false, the operation throws Error(Cancelled) within a fraction of a second.
 using Progress = std::function<bool(double)>;
 
 }  // namespace batten

@@ -115,7 +115,7 @@ TEST(AdaptiveButterfly, MeetsAnEdgeLength) {
   }
 }
 
-/// Deep where asked, coarse elsewhere.
+/// Deep where requested, coarse elsewhere.
 TEST(AdaptiveButterfly, CutsWhatYouSay) {
   const Mesh mesh = icosahedron();
   const Eigen::RowVector3d target = mesh.points.row(0);

@@ -125,7 +125,7 @@ TEST(Adaptive, ClosesAroundAPoleOfValence360) {
   }
 }
 
-/// Against the uniform tessellator, which knows the limits by other means: vertices are some of its vertices.
+/// Compared with the uniform tessellator, which computes limits independently: every vertex is one of its vertices.
 TEST(Adaptive, HasItsVerticesOnTheSurface) {
   for_each_case(0.003, 4, [](const Case& which, const AdaptiveOptions& options, const AdaptiveMesh& result) {
     const Topology topology(which.mesh);
@@ -163,7 +163,7 @@ TEST(Adaptive, KeepsTheChordTolerance) {
   }
 }
 
-/// The other way: places on the faces, against the proved nearest points of the surface.
+/// The reverse: places on the faces, compared with the proved nearest points of the surface.
 TEST(Adaptive, HasNoFaceFartherFromTheSurfaceThanTheTolerance) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> unit(0.0, 1.0);

@@ -1,4 +1,4 @@
-/// \file The files of $BATTEN_DATA that conformance is measured on, every one by name.
+/// \file The names of the files in $BATTEN_DATA that conformance tests read.
 #pragma once
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// The whole way round: our control mesh, written, read again, evaluated by OpenSubdiv, passes through the targets.
+/// The control mesh, after writing and reading, has a surface by OpenSubdiv that passes through the targets.
 #include <unistd.h>
 
 #include <cmath>

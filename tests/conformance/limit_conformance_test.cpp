@@ -149,9 +149,7 @@ void expect_same_limits(const Mesh& mesh, const Scheme& scheme, int most_levels)
 class LimitShapes : public ShapeTest {};
 INSTANTIATE_TEST_SUITE_P(Conformance, LimitShapes, ::testing::ValuesIn(shape_names()), test_name);
 
-TEST_P(LimitShapes, HaveOpenSubdivsLimits) {
-  expect_same_limits(mesh, scheme, 4);
-}
+TEST_P(LimitShapes, HaveOpenSubdivsLimits) { expect_same_limits(mesh, scheme, 4); }
 
 TEST_P(LimitShapes, HaveOpenSubdivsLimitsUnderEveryBoundaryRule) {
   for_each_boundary_rule([&](const Scheme& each) { expect_same_limits(mesh, each, 2); });
@@ -168,7 +166,7 @@ TEST_P(LimitShapes, HaveOpenSubdivsLimitsWithRandomTags) {
   expect_same_limits(with_random_tags(mesh, 1), scheme, mesh.face_count() > 200 ? 2 : 4);
 }
 
-/// What OpenSubdiv cannot tell, the limit itself does: A P is the same from every level of our own refinement.
+/// An oracle where OpenSubdiv is none: A P is the same from every level of refinement.
 TEST_P(LimitShapes, AreReachedFromEveryLevel) {
   const Topology topology(mesh);
   const Values limit = LimitMatrix(topology, scheme).apply(mesh.points);

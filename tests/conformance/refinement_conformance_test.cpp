@@ -54,9 +54,7 @@ void expect_same_levels(const Mesh& mesh, const Scheme& scheme, int levels) {
 class Shapes : public ShapeTest {};
 INSTANTIATE_TEST_SUITE_P(Conformance, Shapes, ::testing::ValuesIn(shape_names()), test_name);
 
-TEST_P(Shapes, RefineAsOpenSubdivDoes) {
-  expect_same_levels(mesh, scheme, 3);
-}
+TEST_P(Shapes, RefineAsOpenSubdivDoes) { expect_same_levels(mesh, scheme, 3); }
 
 TEST_P(Shapes, RefineAsOpenSubdivDoesUnderEveryBoundaryRule) {
   for_each_boundary_rule([&](const Scheme& each) { expect_same_levels(mesh, each, 2); });

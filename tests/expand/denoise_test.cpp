@@ -138,7 +138,7 @@ TEST(Noise, IsNotWhatSharpEdgesAreMadeOf) {
   EXPECT_NEAR(denoise(mesh, kQuads).noise.deviation, deviation, 0.2 * deviation);
 }
 
-/// Against the best of all passes, which only who knows the shape can tell.
+/// Compared with the best of all passes, which the known shape determines.
 TEST(Denoise, ChoosesPassesNearlyAsGoodAsTheBest) {
   for (const bool triangles : {false, true}) {
     for (const SeriesMatrix matrix : {SeriesMatrix::Limit, SeriesMatrix::Cotangent}) {
@@ -240,7 +240,7 @@ TEST(Denoise, KeepsFeaturesSharp) {
   add_noise(mesh, 0.1, 4);
   DenoiseOptions options;
   options.passes = 30;
-  // Across the sides only: noise within a side is not seen, and smoothing sides has no reason to take it away.
+  // Distances across the sides only. Noise within a side does not count.
   const auto error = [&](const Points& points) {
     double sum = 0.0;
     for (Index v = 0; v < clean.vertex_count(); ++v) {

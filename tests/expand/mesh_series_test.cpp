@@ -21,7 +21,7 @@ SeriesOptions cotangent(const Mesh& mesh) {
 
 double largest(const Values& values) { return values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0.0; }
 
-/// A as a dense matrix: what it makes of the unit vectors.
+/// A as a dense matrix, by applying it to the unit vectors.
 Values dense(const MeshSeries& series) {
   const Index count = series.topology().vertex_count();
   return series.apply(Values::Identity(count, count));
@@ -143,7 +143,7 @@ TEST(MeshSeries, KeepsWhatItIsToldToKeep) {
   }
 }
 
-/// A crease is a curve of its own: it does not see the sides, and a straight one stays straight.
+/// A crease is a curve that does not depend on the sides; a straight one stays straight.
 TEST(MeshSeries, SmoothsCreasesAlongThemselves) {
   Mesh mesh = grid(8, 8);
   for (Index i = 0; i < 8; ++i) mesh.creases.push_back({4 * 9 + i, 4 * 9 + i + 1, 10.0});

@@ -113,7 +113,7 @@ TEST(Sharpen, AddsTheTermsItIsAskedFor) {
   EXPECT_LT((result.points - step * step * mesh.points).cwiseAbs().maxCoeff(), 1e-13);
 }
 
-/// The bound holds for the worst detail there is, the two-colouring of a prism: a = 0 on an even one.
+/// The bound holds for the worst possible detail, the two-colouring of an even prism, where a = 0.
 TEST(Sharpen, GrowsNoDetailBeyondTheBound) {
   Mesh mesh = cube();
   const Topology topology(mesh);

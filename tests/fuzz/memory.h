@@ -6,8 +6,8 @@
 
 namespace batten::fuzz {
 
-/// The most bytes that were allocated at a time while `body` ran, beyond what was before. 0 in a build without the
-/// address sanitizer, which is what counts them.
+/// The greatest number of bytes allocated at any time while `body` ran, beyond those allocated before. 0 in a build
+/// without the address sanitizer, which counts them.
 std::size_t peak_bytes(const std::function<void()>& body);
 
 /// Prints what is wrong and aborts, which the fuzzer reports with the input.

@@ -1,4 +1,4 @@
-/// Runs a fuzz target on the files of a folder, without a fuzzer: what was once found stays fixed in every build.
+/// Runs a fuzz target on the files of a folder without a fuzzer, so that every build tests all inputs found so far.
 #include <cstdio>
 #include <filesystem>
 #include <fstream>

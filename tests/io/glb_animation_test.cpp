@@ -1,4 +1,4 @@
-/// Morph targets and their animation in GLB, read again by tinygltf.
+/// Morph targets and their animation in GLB, read by tinygltf.
 #include <tiny_gltf.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-/// GLB out, read again by tinygltf.
+/// Written GLB files, read by tinygltf.
 #include <tiny_gltf.h>
 
 #include <array>
@@ -146,7 +146,7 @@ TEST(GlbWriter, FarFromTheOriginTheNodeCarriesThePlace) {
   ASSERT_EQ(model.nodes[0].translation.size(), 3U);
   const Eigen::RowVector3d place = Eigen::Map<const Eigen::RowVector3d>(model.nodes[0].translation.data());
   const Values points = floats(model, "POSITION").cast<double>().rowwise() + place;
-  // Floats alone would be 0.25 off; these are as good as floats at the origin, and the doubles' own last place.
+  // Floats alone would be 0.25 off; these have the precision of floats at the origin and of the doubles' last place.
   EXPECT_LT((points - mesh.points).cwiseAbs().maxCoeff(), 1.5e-7);
 }
 

@@ -1,4 +1,4 @@
-/// \file What the tests of the readers and writers share.
+/// \file Functions that the tests of readers and writers share.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ namespace batten::io_tests {
 using test::error_of;
 using test::expect_error;
 
-/// A folder of its own, gone with its content at the end.
+/// A new folder that is removed with its content at the end.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -163,7 +163,7 @@ inline Mesh random_mesh(Index vertex_count, Index face_count, unsigned seed = 1)
   return mesh;
 }
 
-/// Writes the mesh into a folder of its own and reads it back.
+/// Writes the mesh into a new folder and reads it back.
 inline Mesh round_trip(const Mesh& mesh, const std::string& format, bool binary = true) {
   const TemporaryFolder folder;
   const std::string path = folder.path("mesh." + format);

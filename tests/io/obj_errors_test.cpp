@@ -1,4 +1,4 @@
-/// OBJ in: what is wrong, and in which line.
+/// Errors of the OBJ reader name the fault and the line.
 #include "io/io_test_tools.h"
 
 namespace batten::io_tests {
@@ -7,7 +7,7 @@ namespace {
 const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 struct Case {
-  const char* line;  ///< stands on line 4
+  const char* line;  ///< the text of line 4
   ErrorCode code;
   const char* part;
 };

@@ -1,4 +1,4 @@
-/// OBJ in: what the statements mean.
+/// The meaning of OBJ's statements.
 #include "io/io_test_tools.h"
 
 namespace batten::io_tests {

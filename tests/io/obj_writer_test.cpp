@@ -1,4 +1,4 @@
-/// OBJ out: everything that a Mesh holds comes back.
+/// Everything in a Mesh survives writing and reading OBJ.
 #include <limits>
 
 #include "io/io_test_tools.h"

@@ -1,4 +1,4 @@
-/// Files in: what read_mesh says of files that are none, and real files.
+/// read_mesh on paths that are no mesh files, and on real files.
 #include <unistd.h>
 
 #include <algorithm>

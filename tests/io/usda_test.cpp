@@ -1,4 +1,4 @@
-/// USD's text format out, checked against the documented schema.
+/// Written USD text, compared with the documented schema.
 #include <map>
 #include <set>
 #include <sstream>

@@ -1,4 +1,4 @@
-/// Files out: nothing half-written is left, and nothing wrong is written.
+/// Failed writing leaves no incomplete file, and invalid meshes are not written.
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// While it lives, files cannot grow beyond `bytes`: what a full disk looks like.
+/// While it exists, files cannot grow beyond `bytes`, as on a full disk.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {

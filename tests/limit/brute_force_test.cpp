@@ -21,7 +21,7 @@ std::vector<Mesh> tagged_variants(const Mesh& mesh) {
   return variants;
 }
 
-/// A P does not change from level to level: with every tag, dart, fading crease and valence of the samples.
+/// A P is the same from every level, for every tag, dart, fading crease and valence of the samples.
 TEST(LimitByRefinement, IsTheSameFromEveryLevel) {
   test::for_each_sample([](const Mesh& plain, Scheme scheme, const std::string& name) {
     for (const Mesh& mesh : tagged_variants(plain)) {
@@ -56,7 +56,7 @@ TEST(LimitByRefinement, IsTheSameFromEveryLevelWithAlphaAndSmoothTriangles) {
 }
 
 /// The vertices themselves come closer by less than 0.7 a level (lambda < 0.655 for every valence; tags of 4 and less
-/// have faded at level 4), which an arbitrary fixed mask would not see.
+/// have faded at level 4). An arbitrary fixed mask would not have this limit.
 TEST(LimitByRefinement, IsWhereTheVerticesGo) {
   test::for_each_sample([](const Mesh& plain, const Scheme& scheme, const std::string& name) {
     if (plain.face_count() > 30) return;
@@ -86,8 +86,8 @@ TEST(LimitByRefinement, MatrixAndRowsAndApplicationAgree) {
   });
 }
 
-/// Where the exact tangents exist: everywhere but at creases and boundaries of more faces than the bound (docs/mathematics.md, Limit tangents),
-/// and at interior vertices of valence 2.
+/// Where the exact tangents exist: everywhere but at creases and boundaries of more faces than the bound
+/// (docs/mathematics.md, Limit tangents), and at interior vertices of valence 2.
 bool has_exact_tangents(const Topology& topology, const Scheme& scheme, Index vertex) {
   VertexRing ring;
   if (topology.is_isolated(vertex)) return false;
@@ -99,7 +99,7 @@ bool has_exact_tangents(const Topology& topology, const Scheme& scheme, Index ve
 }
 
 /// The largest sine between an original vertex's normal and its edges after `level` steps. Edges turn into the tangent
-/// plane by the ratio of the third eigenvalue to the second a level; only valences up to 6 are asked, where it is 0.71
+/// plane by the ratio of the third eigenvalue to the second a level; only valences up to 6 are tested, where it is 0.71
 /// or less.
 double worst_slope(const Topology& topology, const Scheme& scheme, const Mesh& mesh, const Values& normals, int level) {
   const RefinedSurface fine = refine(topology, scheme, mesh.points, level);
@@ -148,7 +148,7 @@ TEST(LimitByRefinement, NormalsAreTheSameFromEveryLevel) {
   });
 }
 
-/// Disabled: ring_limit's power iteration lets the odd eigenvector in by rounding; some darts' normals are wrong.
+/// Rounding must not let the odd eigenvector into ring_limit's power iteration, which would turn the normals of darts.
 TEST(LimitByRefinement, NormalsAtDartsAreTheSameFromEveryLevel) {
   test::for_each_sample([](const Mesh& plain, const Scheme& scheme, const std::string& name) {
     for (Mesh mesh : tagged_variants(plain)) {

@@ -88,7 +88,8 @@ TEST(ButterflyNormals, HoldForPlainButterfly) {
             1e-11);
 }
 
-/// docs/mathematics.md, Butterfly: at w = 0 weights of e, m, d as 16 cos, -8/sqrt(3) cos(. + pi/6), cos; other w as the note lists them.
+/// docs/mathematics.md, Butterfly: at w = 0 weights of e, m, d as 16 cos, -8/sqrt(3) cos(. + pi/6), cos; other w as the
+/// note lists them.
 TEST(ButterflyNormals, RegularMasksAreThoseOfTheNote) {
   struct Case {
     double tension;

@@ -1,4 +1,4 @@
-/// \file An independent, slow and plain word on whether a mesh is an oriented 2-manifold: maps of edges, no Topology.
+/// \file An independent and slow test of whether a mesh is an oriented 2-manifold, by maps of edges without Topology.
 #pragma once
 #include <Eigen/Geometry>
 #include <map>
@@ -12,7 +12,7 @@ namespace batten::test {
 
 struct ManifoldReport {
   bool valid = false;  ///< each directed edge once, a single fan at each vertex, no vertex unused
-  std::string reason;  ///< where it is not valid
+  std::string reason;  ///< empty if valid
   Index edge_count = 0;
   Index boundary_edge_count = 0;
   Index boundary_loop_count = 0;
@@ -37,7 +37,7 @@ inline std::map<Index, std::map<Index, Index>> fans_of(const Mesh& mesh) {
   return fans;
 }
 
-/// One fan: turning from face to face meets every face. An open fan starts where nothing comes before.
+/// True for one fan: turning from face to face visits every face. An open fan starts at a face without a predecessor.
 inline bool is_single_fan(const std::map<Index, Index>& turns) {
   std::set<Index> reached;
   for (const auto& turn : turns) reached.insert(turn.second);

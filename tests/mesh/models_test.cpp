@@ -1,4 +1,4 @@
-/// The sample models: what the generator makes is sound, and the files in models/ are what it makes.
+/// The sample models: the generator's meshes are sound, and the files in models/ are its output.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 #include "batten/mesh/topology.h"
 #include "mesh/manifold.h"
 
-// The generator is a program of its own; its sources without main are small enough to be part of this test.
+// The generator is a separate program. This test includes its sources without main.
 #include "../../models/all_models.cpp"
 #include "../../models/ball.cpp"
 #include "../../models/blocks.cpp"

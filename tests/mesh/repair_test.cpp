@@ -34,7 +34,7 @@ void expect_same(const Mesh& a, const Mesh& b) {
   EXPECT_EQ(a.groups.size(), b.groups.size());
 }
 
-/// What happened, kind by kind: "split-edges 2, split-vertices 4".
+/// The changes as text: "split-edges 2, split-vertices 4".
 std::string words(const RepairResult& result) {
   std::string text;
   for (const RepairChange& change : result.changes) {
@@ -43,7 +43,7 @@ std::string words(const RepairResult& result) {
   return text;
 }
 
-/// Accepted by the gate, its maps true, and nothing left to do.
+/// Topology accepts the result, its maps are right, and another repair changes nothing.
 void expect_sound(const Mesh& input, const RepairResult& result, const RepairOptions& options = {}) {
   ASSERT_NO_THROW(Topology{result.mesh}) << words(result);
   ASSERT_EQ(static_cast<Index>(result.vertex_sources.size()), result.mesh.vertex_count());
@@ -72,7 +72,7 @@ struct SoupKind {
   Index vertices;
   unsigned faces;
   unsigned corners;
-  int places;  ///< points are drawn from so many places, so that some coincide
+  int places;  ///< the number of places from which points are drawn, so that some coincide
   int trials;
 };
 void PrintTo(const SoupKind& kind, std::ostream* out) { *out << kind.name; }
@@ -116,7 +116,7 @@ test::ManifoldReport shape_of(const Mesh& mesh) { return test::examine(mesh); }
 TEST(Repair, LeavesCleanMeshesAsTheyAre) {
   for (const test::NamedMesh& sample : test::sample_meshes()) {
     Mesh mesh = test::with_random_tags(sample.mesh, 5);
-    // A vertex without a face is no fault to Topology, but repair drops it.
+    // Topology accepts a vertex without a face, but repair drops it.
     if (connected_components(Topology(mesh)).count > 1) continue;
     mesh.groups = {{"g", "all", 0}, {"g", "none", mesh.face_count()}};
     mesh.attributes = {{"heat", Values::Random(mesh.vertex_count(), 2), {}}};
@@ -249,7 +249,7 @@ TEST(Repair, SplitsAFinFromTheFlatSheetItStandsOn) {
 }
 
 TEST(Repair, LetsCrossingSheetsPassThroughEachOther) {
-  // Two planes cross in the edge (0, 1); no face hangs together with another elsewhere.
+  // Two planes cross in the edge (0, 1); no faces are connected elsewhere.
   Mesh mesh = mesh_of_faces(6, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {1, 0, 5}});
   mesh.points << 0, 0, 0, 0, 0, 1, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0;
   const RepairResult result = repair(mesh);

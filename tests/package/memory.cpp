@@ -1,5 +1,5 @@
 /// Matrices made on one side of the library's border and freed on the other: Eigen's own allocators differ with the
-/// flags (docs/decisions/006-eigen-layout.md), so that a wrong border dies here.
+/// flags (docs/decisions/006-eigen-layout.md), so a wrong border crashes here.
 #include <cstdio>
 #include <string>
 #include <utility>

@@ -224,7 +224,8 @@ TEST(Refinement, WrongArgumentsAreRefused) {
   test::expect_error([&] { refine(topology, scheme, mesh.points, -1); }, ErrorCode::BadArgument, "levels");
   test::expect_error([&] { refine(topology, scheme, mesh.points.topRows(7), 1); }, ErrorCode::BadShape, "7 rows");
   test::expect_error([&] { Refinement(topology, scheme, {0.5}); }, ErrorCode::BadShape, "vertex_alpha");
-  test::expect_error([&] { Refinement(topology, scheme, std::vector<double>(8, -0.1)); }, ErrorCode::BadArgument, "alpha");
+  test::expect_error([&] { Refinement(topology, scheme, std::vector<double>(8, -0.1)); }, ErrorCode::BadArgument,
+                     "alpha");
   scheme.alpha = 1.5;
   test::expect_error([&] { Refinement(topology, scheme); }, ErrorCode::BadArgument, "alpha");
   scheme.alpha = std::nan("");

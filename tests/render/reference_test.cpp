@@ -1,4 +1,4 @@
-/// The picture of a model, compared with one that was looked at. After a change that is meant to change pictures, set
+/// The picture of a model, compared with one that was inspected. After an intended change of pictures, set
 /// BATTEN_WRITE_REFERENCE=1, run this test, look at tests/render/reference.png and commit it.
 #include <gtest/gtest.h>
 #include <png.h>

@@ -50,8 +50,8 @@ TEST(ButterflyMasks, AreTheSameByDefault) {
   EXPECT_EQ(butterfly_mask(plain).beyond, butterfly_mask(modified).beyond);
 }
 
-/// docs/mathematics.md, Butterfly: on the ring of unit edges 1, x, y, x^2 + y^2, x^2 - y^2 and xy take the value of the edge's middle; K = 3
-/// has no room for the last two.
+/// docs/mathematics.md, Butterfly: on the ring of unit edges 1, x, y, x^2 + y^2, x^2 - y^2 and xy take the value of the
+/// edge's middle; K = 3 has no room for the last two.
 TEST(ButterflyMasks, ExtraordinaryRingsReproduceQuadratics) {
   const std::vector<Function> functions{[](double, double) { return 1.0; },
                                         [](double x, double) { return x; },

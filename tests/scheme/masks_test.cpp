@@ -152,7 +152,8 @@ INSTANTIATE_TEST_SUITE_P(Masks, Alpha,
                          ::testing::Combine(::testing::Values(SchemeKind::CatmullClark), ::testing::Range(3, 13)),
                          ring_name);
 
-/// Alpha acts in the first step only: the mask is the ordinary limit of the ring after that step (docs/mathematics.md, Limit positions).
+/// Alpha acts in the first step only: the mask is the ordinary limit of the ring after that step (docs/mathematics.md,
+/// Limit positions).
 TEST_P(Alpha, LimitMaskIsTheOrdinaryOneAfterOneStepWithAlpha) {
   for (const double alpha : {0.25, 0.5, 1.0}) {
     const double n = valence();

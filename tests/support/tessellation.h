@@ -1,4 +1,4 @@
-/// \file A tessellation point by point against Refinement, whose vertices stand in another order.
+/// \file Compares a tessellation point by point with Refinement, whose vertices have another order.
 #pragma once
 #include <gtest/gtest.h>
 

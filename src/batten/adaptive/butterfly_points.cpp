@@ -13,7 +13,7 @@ namespace batten {
 
 namespace {
 
-/// One level as a connectivity without tables.
+/// One level of refinement as a connectivity without stored tables.
 struct Level {
   TessellationLayout layout;
   LatticeTags tags;
@@ -22,7 +22,7 @@ struct Level {
       : layout(base, false, level), tags(lattice_tags(base, scheme, level)), walk(base, layout, tags) {}
 };
 
-/// A point of the lattice by the coarsest level that has it.
+/// A point of the lattice at the coarsest level that contains it.
 struct LatticePlace {
   int level;
   Index face;
@@ -67,7 +67,7 @@ struct ButterflyPoints::Parts {
     constexpr int kLevelBits = 5;
     const std::uint64_t key = (static_cast<std::uint64_t>(number) << kLevelBits) | static_cast<unsigned>(place.level);
     if (const auto found = known.find(key); found != known.end()) return found->second;
-    // The middle of an edge of the level above, which an upright triangle has.
+    // The midpoint of an edge of the level above, taken in an upright triangle.
     const LatticeWalk& walk = level(place.level - 1).walk;
     const int side = place.i % 2 == 0 ? 2 : (place.j % 2 == 0 ? 0 : 1);
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -80,7 +80,7 @@ struct ButterflyPoints::Parts {
     return sum;
   }
 
-  /// Of the side that the place's face lies on.
+  /// The normal on the side of the place's face.
   Eigen::Vector3d normal(const LatticePlace& anywhere) {
     const LatticePlace place = coarsest(anywhere);
     const LatticeWalk& walk = level(place.level).walk;

@@ -1,4 +1,4 @@
-/// \file Single points of a Butterfly surface, at the places that refinement would reach, with their normals.
+/// \file Single points of a Butterfly surface, at places that refinement would reach, and their normals.
 #pragma once
 #include <memory>
 #include <span>
@@ -10,19 +10,19 @@
 
 namespace batten {
 
-/// A point of level l is made of some ten points of level l - 1, and those of others, down to the control points; what
-/// has been made is kept. So points cost O(1) each where many are asked for near each other: some 200 bytes and about a
+/// A point of level l is computed from about ten points of level l - 1, and these from coarser ones, down to the
+/// control points. All computed points are kept. Points near each other therefore cost O(1) each: about 200 bytes and a
 /// microsecond. Not safe to share between threads.
 class ButterflyPoints {
  public:
-  /// Places lie this many levels deep at most.
+  /// The deepest level of a place.
   static constexpr int kMostLevels = 16;
 
   /// control: V-by-3, copied. Throws Error(NotTriangles, BadShape, BadArgument).
   ButterflyPoints(const Topology& topology, const Scheme& scheme, ConstValuesRef control);
   ~ButterflyPoints();
 
-  /// u and v: multiples of 2^-kMostLevels. normals: unit, of the side of the place's face; zero where there is none.
+  /// u and v: multiples of 2^-kMostLevels. normals: unit, on the side of the place's face; zero where there is none.
   void evaluate(std::span<const SurfacePlace> places, Eigen::Ref<Points> points, Eigen::Ref<Points> normals);
 
  private:

@@ -11,13 +11,13 @@ namespace {
 
 using Spot = std::array<double, 2>;
 
-/// A leaf with the vertices in the middles of its sides: eight corners at most.
+/// A leaf with the vertices in the middles of its sides: at most eight corners.
 struct Polygon {
   struct Corner {
     Index vertex;
     Spot at;  ///< in the cell
     bool hanging;
-    int side;  ///< that starts here or is halved here
+    int side;  ///< the side that starts here or is halved here
   };
   std::array<Corner, 8> corners;
   int count = 0;
@@ -40,7 +40,7 @@ Polygon polygon_of(const CellForest& forest, Index cell) {
   return polygon;
 }
 
-/// Where each leaf's faces start, with their number at the end.
+/// The number of each leaf's first face, and the total at the end.
 template <typename Count>
 Buffer<std::size_t> face_starts(const Buffer<Index>& leaves, const Count& count) {
   Buffer<std::size_t> starts(leaves.size() + 1);
@@ -52,7 +52,7 @@ Buffer<std::size_t> face_starts(const Buffer<Index>& leaves, const Count& count)
   return starts;
 }
 
-/// Writes one leaf's faces, one corner after the other.
+/// Writes the faces of one leaf, corner by corner.
 class FaceWriter {
  public:
   FaceWriter(const CellForest& forest, Index cell, std::size_t first, CellFaces& faces)
@@ -99,7 +99,7 @@ Polygon cut_corners(const Polygon& polygon, FaceWriter& writer) {
   return rest;
 }
 
-/// Vertices that only two faces meet in. Their cells share two sides: a diagonal across would be the same for both.
+/// Marks vertices of only two faces. Their cells share two sides, so a diagonal across would be the same edge for both.
 Buffer<std::uint8_t> pinched_vertices(const CellForest& forest) {
   const Topology& base = forest.base();
   Buffer<std::uint8_t> pinched(static_cast<std::size_t>(forest.vertex_count()), 0);
@@ -112,7 +112,7 @@ Buffer<std::uint8_t> pinched_vertices(const CellForest& forest) {
   return pinched;
 }
 
-/// The vertex that the fan starts from. From the middle of a side no triangle of it is flat.
+/// The vertex at which the fan starts. If it is the middle of a side, no triangle of the fan is flat.
 int fan_start(const Polygon& polygon, const Points& points, const Buffer<std::uint8_t>& pinched) {
   if (polygon.count == 3) return 0;
   const bool any = std::any_of(polygon.corners.begin(), polygon.corners.begin() + polygon.count,
@@ -137,7 +137,7 @@ int fan_start(const Polygon& polygon, const Points& points, const Buffer<std::ui
   return best;
 }
 
-/// The vertices that halve the polygons' sides: one for each side of a leaf whose neighbour is not finer.
+/// Numbers the vertices that halve the polygons' sides: one for each side of a leaf whose neighbour is not finer.
 Buffer<Index> number_side_middles(const CellForest& forest, const Buffer<Index>& leaves, CellFaces& faces) {
   const int n = forest.corner_count();
   Buffer<Index> middles(static_cast<std::size_t>(forest.cell_count()) * 4, -1);
@@ -158,7 +158,7 @@ Buffer<Index> number_side_middles(const CellForest& forest, const Buffer<Index>&
   return middles;
 }
 
-/// The vertex in the middle of the polygon's side from corner i on.
+/// The vertex in the middle of the polygon's side that starts at corner i.
 Index middle_after(const CellForest& forest, Index cell, const Polygon& polygon, int i, const Buffer<Index>& middles) {
   const Polygon::Corner& here = polygon.corners[i];
   const bool halved = here.hanging || polygon.corners[polygon.after(i)].hanging;
@@ -166,7 +166,7 @@ Index middle_after(const CellForest& forest, Index cell, const Polygon& polygon,
     return middles[4 * static_cast<std::size_t>(c) + static_cast<std::size_t>(side)];
   };
   if (!halved) return middle(cell, here.side);
-  // The finer cells across stand in the other order.
+  // The finer cells across are in the opposite order.
   const CellForest::Side across = forest.neighbour(cell, here.side);
   const int following = across.side + 1 == forest.corner_count() ? 0 : across.side + 1;
   return middle(forest.child(across.cell, here.hanging ? across.side : following), across.side);

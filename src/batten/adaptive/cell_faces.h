@@ -1,31 +1,31 @@
-/// \file The leaves of a forest as faces without T-junctions.
+/// \file Turns the leaves of a forest into faces without T-junctions.
 ///
-/// A leaf is a polygon: its corners and, where a neighbour is finer, the vertex in the middle of the side. Both sides
-/// of every edge of these polygons have the same two vertices; all that is left is to cut each polygon by itself.
+/// A leaf is a polygon of its corners and, where a neighbour is finer, the vertex in the middle of the side. Both sides
+/// of each edge of these polygons have the same two vertices, so each polygon can be cut by itself.
 #pragma once
 #include "batten/adaptive/cell_forest.h"
 
 namespace batten {
 
-/// Faces of three or four vertices each, counter-clockwise as the base's.
+/// Faces of three or four vertices each, counter-clockwise like the base's.
 struct CellFaces {
-  Index size = 3;                        ///< of every face
-  Buffer<Index> vertices;                ///< `size` a face: the forest's, then those added
+  Index size = 3;                        ///< the number of corners of each face
+  Buffer<Index> vertices;                ///< `size` for each face: the forest's vertices, then the added ones
   Buffer<std::array<double, 2>> places;  ///< of each corner, in the base face
-  Buffer<Index> cells;                   ///< one a face
-  Buffer<SurfacePlace> added;            ///< vertices that the forest does not have
+  Buffer<Index> cells;                   ///< one for each face
+  Buffer<SurfacePlace> added;            ///< the places of vertices that the forest does not have
   Index count() const { return static_cast<Index>(cells.size()); }
 };
 
-/// Triangles. A corner between two finer neighbours is cut off; what is left is a fan from that vertex in the middle of
-/// a side, or that corner where there is none, whose longest diagonal is shortest. points: a row a vertex of the
-/// forest. O(cells), threaded.
+/// Cuts polygons into triangles. A corner between two finer neighbours is cut off. The rest is a fan from the middle of
+/// a side, or from a corner if there is no such vertex, chosen so that the longest diagonal is shortest. points: a row
+/// for each vertex of the forest. O(cells), threaded.
 CellFaces triangles_of(const CellForest& forest, const Points& points);
 
-/// Quads only: polygons of n sides become n quads around their centre, each side is halved.
+/// Cuts polygons into quads: each polygon of n sides becomes n quads around its centre, and each side is halved.
 CellFaces quads_of(const CellForest& forest);
 
-/// The leaves themselves. For a forest in which no neighbours differ.
+/// The leaves themselves, for a forest in which neighbours do not differ in level.
 CellFaces leaves_of(const CellForest& forest);
 
 }  // namespace batten

@@ -52,7 +52,7 @@ int CellForest::deepest_level() const {
   return deepest;
 }
 
-/// Across a side that another child of the same parent shares; cell -1 where the side is the parent's.
+/// The side of a sibling across a side, or cell -1 if the side is on the parent's side.
 CellForest::Side CellForest::sibling(Index first, int number, int side) const {
   if (corners_ == 4) {
     if (side == ((number + 1) & 3)) return {first + ((number + 1) & 3), (number + 3) & 3};
@@ -73,7 +73,7 @@ CellForest::Side CellForest::neighbour(Index cell, int side) const {
   }
   const Side inner = sibling(cells_[here.parent].first_child, here.number, side);
   if (inner.cell >= 0) return inner;
-  // The first half of the parent's side lies across from the second half of the neighbour's, and the other way round.
+  // The first half of the parent's side is across from the second half of the neighbour's, and vice versa.
   const Side across = neighbour(here.parent, side);
   if (across.cell < 0 || is_leaf(across.cell)) return across;
   return {child(across.cell, side == here.number ? next(across.side) : across.side), across.side};
@@ -91,7 +91,7 @@ SurfacePlace CellForest::place(Index cell, double u, double v) const {
   return {here.face, here.u + size * u, here.v + size * v};
 }
 
-/// Makes every neighbour at least as fine as the cell.
+/// Splits neighbours until each is at least as fine as the cell.
 void CellForest::level_neighbours(Index cell) {
   for (int s = 0; s < corners_; ++s) {
     const Side across = neighbour(cell, s);
@@ -99,7 +99,7 @@ void CellForest::level_neighbours(Index cell) {
   }
 }
 
-/// The neighbour's, where it has one already.
+/// The neighbour's vertex, if it has one already.
 Index CellForest::middle_vertex(Index cell, int side) {
   const Index shared = hanging_vertex(cell, side);
   if (shared >= 0) return shared;

@@ -9,7 +9,7 @@ namespace batten {
 
 namespace {
 
-/// Sums of a triangle patch's control points.
+/// A linear combination of a triangle patch's control points.
 struct LatticeSum {
   int count = 0;
   std::array<int, 7> points;
@@ -29,7 +29,7 @@ int lattice_index(int a, int b) {
 
 constexpr int kSteps[6][2] = {{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}};
 
-/// The refined point (a, b) of a lattice of half the size.
+/// The refined point (a, b) of a lattice with half the spacing.
 LatticeSum refined_point(int a, int b) {
   const Scheme loop{SchemeKind::Loop};
   LatticeSum sum;
@@ -43,7 +43,7 @@ LatticeSum refined_point(int a, int b) {
   for (int k = 0; k < 6; ++k) {
     const auto& step = kSteps[k];
     if ((a - step[0]) % 2 != 0 || (b - step[1]) % 2 != 0) continue;
-    // Both directions of the edge come here, each with its end and the vertex to its left.
+    // Both directions of the edge are handled here, each with its end and the vertex to its left.
     const int x = (a - step[0]) / 2;
     const int y = (b - step[1]) / 2;
     const auto& left = kSteps[(k + 1) % 6];
@@ -53,7 +53,7 @@ LatticeSum refined_point(int a, int b) {
   return sum;
 }
 
-/// The twelve points of each child.
+/// The twelve control points of each child.
 std::array<std::array<LatticeSum, kTrianglePatchSize>, 4> make_triangle_children() {
   std::array<std::array<LatticeSum, kTrianglePatchSize>, 4> children;
   constexpr int kOrigins[4][2] = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
@@ -81,7 +81,7 @@ void halve_triangle(const double* from, std::array<CellNet, 4>& children) {
   }
 }
 
-/// Four cubic control points become five, `stride` numbers apart.
+/// Turns four cubic control points, `stride` numbers apart, into five of half the spacing.
 void halve_cubic(const double* from, std::ptrdiff_t stride, double* to, std::ptrdiff_t to_stride) {
   for (int x = 0; x < 3; ++x) {
     const double a = from[x];
@@ -125,7 +125,7 @@ void CellNets::root(Index face, CellNet& net) const {
   find(net);
 }
 
-/// The control points of a cell of up to kRingPieceLevels levels, where it is one piece.
+/// Finds the control points of a cell of up to kRingPieceLevels levels, if it is one piece.
 void CellNets::find(CellNet& net) const {
   net.kind = CellNet::Kind::Several;
   constexpr double kSide = 1 << kRingPieceLevels;

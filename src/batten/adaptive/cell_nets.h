@@ -1,4 +1,4 @@
-/// \file Parts of base faces as control points of their own, halved again and again.
+/// \file Parts of base faces as control points of their own, halved repeatedly.
 #pragma once
 #include <memory>
 #include <vector>
@@ -8,11 +8,11 @@
 
 namespace batten {
 
-/// A square or triangular part of a base face: a face halved towards it `level` times.
+/// A square or triangular part of a base face: the face after `level` halvings towards it.
 struct CellNet {
   enum class Kind : std::uint8_t {
     Patch,   ///< points: 16 (12) of a regular patch, complete
-    Ring,    ///< points: the one-ring, the cell's own corners first
+    Ring,    ///< points: the one-ring, with the cell's own corners first
     Several  ///< no points: a cell of several pieces
   };
   Kind kind = Kind::Several;
@@ -20,12 +20,12 @@ struct CellNet {
   Index face = 0;
   Index ring = 0;  ///< ring type
   int level = 0;
-  double u = 0.0;  ///< corner 0, in the base face
+  double u = 0.0;  ///< of corner 0, in the base face
   double v = 0.0;
   Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> points;
 };
 
-/// From base faces to the nets of their parts. Const and safe from several threads.
+/// Computes the nets of base faces and of their parts. Const and safe to share between threads.
 class CellNets {
  public:
   /// control: V-by-3. O(H).
@@ -34,9 +34,9 @@ class CellNets {
   const Topology& base() const { return patches_.base(); }
   bool quads() const { return patches_.quads(); }
   void root(Index face, CellNet& net) const;
-  /// In a forest's order (adaptive/cell_forest.h).
+  /// The four children in the forest's order (adaptive/cell_forest.h).
   void children(const CellNet& net, std::array<CellNet, 4>& children) const;
-  /// The limit at a corner of a patch.
+  /// The limit position at a corner of a patch.
   Eigen::Vector3d patch_corner(const CellNet& net, int corner) const;
 
  private:

@@ -17,7 +17,7 @@ namespace {
 using Point = Eigen::Vector3d;
 Point point(const double* points, int i) { return {points[3 * i], points[3 * i + 1], points[3 * i + 2]}; }
 
-/// The largest of some second differences: across the plane, and whole.
+/// The largest of several second differences: its height across the plane, and its whole length.
 struct Bend {
   double across = 0.0;
   double square = 0.0;
@@ -28,7 +28,8 @@ struct Bend {
   double whole() const { return std::sqrt(square); }
 };
 
-/// First differences in one direction: their mean, how far any is from it, and their heights over the plane.
+/// The first differences in one direction: their mean, the greatest deviation from it, and their heights over the
+/// plane.
 struct Run {
   Point mean = Point::Zero();
   double radius = 0.0;
@@ -47,7 +48,7 @@ struct Run {
   double longest() const { return mean.norm() + radius; }
 };
 
-/// Of any two of the differences, over the plane.
+/// The steepest slope over the plane of any two of the differences.
 template <typename Differences>
 double least_area(const Differences& du, const Differences& dv, const Point& normal) {
   double least = std::numeric_limits<double>::infinity();
@@ -57,8 +58,8 @@ double least_area(const Differences& du, const Differences& dv, const Point& nor
   return least;
 }
 
-/// What the distance may be, from second differences across the plane and whole. A displacement along the plane changes
-/// the height by no more than the steepest slope times as much, and by no more than there is height.
+/// A bound for the distance, from second differences across the plane and whole ones. A displacement along the plane
+/// changes the height by at most the steepest slope times its length, and by at most the whole height.
 template <typename Differences>
 double combine(double across, double whole, const Differences& du, const Differences& dv, const Point& normal) {
   if (normal.squaredNorm() == 0.0) return whole;
@@ -67,7 +68,7 @@ double combine(double across, double whole, const Differences& du, const Differe
   double area = std::abs(u.mean.cross(v.mean).dot(normal)) - u.radius * v.mean.norm() - v.radius * u.mean.norm() -
                 u.radius * v.radius;
   if (!(area > 0.0)) area = least_area(du, dv, normal);
-  // A triangle lattice's differences say too little of the area: flat patches would be cut.
+  // The differences of a triangle lattice say too little about the area; flat patches would be cut.
   const bool lattice = du.size() != 12;
   if (!(area > 0.0) && !lattice) return whole;
   double change = u.height + v.height;
@@ -75,7 +76,7 @@ double combine(double across, double whole, const Differences& du, const Differe
   return std::min(whole, across + change);
 }
 
-/// A cubic curve's chord bound, without what runs along it.
+/// The chord bound of a cubic curve, without movement along the curve.
 double curve_bound(const double* points, const std::array<int, 4>& row) {
   const Point a = point(points, row[0]);
   const Point b = point(points, row[1]);
@@ -101,8 +102,8 @@ double curves_bound(const double* points, CurveSides curves, const std::array<st
 constexpr std::array<std::array<int, 4>, 4> kQuadSides{{{4, 5, 6, 7}, {2, 6, 10, 14}, {11, 10, 9, 8}, {13, 9, 5, 1}}};
 constexpr std::array<std::array<int, 4>, 3> kTriangleSides{{{6, 0, 1, 7}, {5, 1, 2, 10}, {11, 2, 0, 3}}};
 
-/// Half the largest sum of products of barycentric coordinates with second derivatives along the edges: half the square
-/// of the smallest circle's radius around a triangle whose squared sides they are.
+/// Half of the largest sum of products of barycentric coordinates with second derivatives along the edges. It is half
+/// of the squared radius of the smallest circle around a triangle with these squared sides.
 double triangle_bound(double a, double b, double c) {
   if (a < b) std::swap(a, b);
   if (a < c) std::swap(a, c);
@@ -110,7 +111,7 @@ double triangle_bound(double a, double b, double c) {
   return 0.5 * a * b * c / (2.0 * (a * b + b * c + c * a) - a * a - b * b - c * c);
 }
 
-/// Index pairs and triples of neighbours in the lattice, for each of the three directions.
+/// The pairs and triples of neighbours in the lattice for each of the three directions.
 struct LatticeRuns {
   std::array<std::vector<std::array<int, 2>>, 3> pairs;
   std::array<std::vector<std::array<int, 3>>, 3> triples;
@@ -136,7 +137,7 @@ struct LatticeRuns {
 double quad_chord_bound(const double* points, CurveSides curves) {
   const auto at = [&](int i, int j) { return point(points, 4 * j + i); };
   const Point normal = (at(2, 2) - at(1, 1)).cross(at(1, 2) - at(2, 1)).normalized();
-  std::array<Point, 12> du;  // 3 j + i: from (i, j) on; dv: from (j, i) on
+  std::array<Point, 12> du;  // du[3 j + i] starts at (i, j), dv[3 j + i] at (j, i)
   std::array<Point, 12> dv;
   for (int j = 0; j < 4; ++j) {
     for (int i = 0; i < 3; ++i) {

@@ -1,4 +1,4 @@
-/// \file Which cells of a forest a chord tolerance cuts.
+/// \file Which cells of a forest a chord tolerance splits.
 #pragma once
 #include "batten/adaptive/cell_forest.h"
 #include "batten/adaptive/cell_nets.h"
@@ -8,17 +8,17 @@ namespace batten {
 
 struct ChordRule {
   double tolerance;
-  bool quartered;  ///< leaves will be cut into quads once more
+  bool quartered;  ///< true if leaves are cut into quads once more
   int max_level;
   Index max_leaves;
 };
 
-/// Cuts the cells of a forest that has only its roots. Returns how many cells of max_level are beyond the tolerance.
-/// points: a row a vertex of the forest. Throws Error(TooLarge).
+/// Splits the cells of a forest that has only its roots. Returns how many cells of max_level are beyond the tolerance.
+/// points: a row for each vertex of the forest. Throws Error(TooLarge).
 Index cut_by_chord(const CellNets& nets, const LimitSurface& surface, const Points& points, const ChordRule& rule,
                    CellForest& forest, const Progress& progress = {});
 
-/// True where no root is beyond the tolerance.
+/// True if no root is beyond the tolerance.
 bool roots_suffice(const CellNets& nets, const LimitSurface& surface, const Points& points, double tolerance,
                    const CellForest& forest);
 

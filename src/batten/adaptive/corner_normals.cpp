@@ -7,10 +7,10 @@ namespace batten {
 
 namespace {
 
-/// Normals of the two sides that are the same differ by rounding only.
+/// Equal normals of two sides differ by rounding only.
 constexpr double kSameNormal = 1e-9;
 
-/// Creases of the base: places on their sides, and at their ends.
+/// The creases of the base, by the places on their sides and at their ends.
 class Creases {
  public:
   explicit Creases(const Topology& base) : base_(base), at_vertex_(static_cast<std::size_t>(base.vertex_count()), 0) {

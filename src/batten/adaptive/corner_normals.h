@@ -1,4 +1,4 @@
-/// \file Normals of an adaptive mesh's corners, each on its own side of creases.
+/// \file Normals at an adaptive mesh's corners, each on its own side of creases.
 #pragma once
 #include <functional>
 
@@ -7,17 +7,17 @@
 
 namespace batten {
 
-/// Outward; zero where the tangents are parallel.
+/// The outward unit normal; zero where the tangents are parallel.
 Eigen::Vector3d unit_normal(const Jet& jet);
 
-/// As Attribute has it.
+/// Normals in the form of an Attribute.
 struct CornerNormals {
-  Values rows;                ///< the vertices', then those of corners that differ
-  Buffer<Index> corner_rows;  ///< one a corner, or empty where none differs
+  Values rows;                ///< one for each vertex, then those of corners that differ
+  Buffer<Index> corner_rows;  ///< one for each corner, or empty if no corner differs
 };
-/// The surface's unit normals at places, on the side of their faces.
+/// Computes the surface's unit normals at places, on the side of their faces.
 using NormalsAt = std::function<Points(std::span<const SurfacePlace>)>;
-/// vertex_normals: a row a vertex.
+/// vertex_normals: a row for each vertex.
 CornerNormals corner_normals(const NormalsAt& normals_at, const CellFaces& faces, const CellForest& forest,
                              const Points& vertex_normals);
 

@@ -10,7 +10,8 @@ namespace {
 
 using Curve = std::vector<Eigen::RowVector3d>;
 
-/// Solves (a + 4 b + c)/6 = color for the inner ones; the ends are their colours (Thomas's elimination).
+/// Solves (a + 4 b + c)/6 = color for the inner control points by Thomas's elimination. The end points are their
+/// colours.
 Curve control_points(const Curve& colors) {
   Curve points = colors;
   const std::size_t last = colors.size() - 1;

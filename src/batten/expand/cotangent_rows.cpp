@@ -12,9 +12,9 @@ namespace batten {
 namespace {
 
 constexpr double kLargestCotangent = 114.6;  // of half a degree
-constexpr double kShare = 8.0 / 9.0;         // 1 - 1/9, the lowest eigenvalue of regular quads
+constexpr double kShare = 8.0 / 9.0;         // 1 - 1/9; 1/9 is the lowest eigenvalue of regular quads
 
-/// One row of C off the diagonal, and the area around its vertex over three.
+/// One row of C without the diagonal, and a third of the area around its vertex.
 struct Row {
   std::vector<std::pair<Index, double>> entries;
   double area = 0.0;
@@ -36,7 +36,7 @@ struct Row {
     for (const auto& entry : entries) sum += entry.second;
     return sum;
   }
-  /// sum_j |C_ij|, the diagonal included.
+  /// sum_j |C_ij| with the diagonal.
   double absolute_sum() const {
     double sum = std::abs(diagonal());
     for (const auto& entry : entries) sum += std::abs(entry.second);
@@ -75,7 +75,7 @@ class CotangentBuilder {
     row.sort();
   }
 
-  /// The median of (sum_j |C_ij|) / area.
+  /// The median over the vertices of (sum_j |C_ij|) / area.
   double median_ratio(const Progress& progress) const {
     Buffer<double> ratios(static_cast<std::size_t>(topology_.vertex_count()), -1.0);
     parallel_for(
@@ -97,7 +97,7 @@ class CotangentBuilder {
     return *middle;
   }
 
-  /// Appends row v of E - A; returns its scale.
+  /// Appends row v of E - A and returns its scale.
   double append(Index v, double ratio, Row& scratch, Buffer<Index>& columns, Buffer<double>& weights) const {
     if (is_kept(v)) return 1.0;
     if (!is_smooth(v)) {

@@ -25,7 +25,8 @@ Topology with_creases(const Mesh& mesh, const std::vector<Crease>& found, const 
   return Topology(creased, progress);
 }
 
-/// Cotangents of noise would be noise; those of the mesh after some passes of the limit matrix are the shape's.
+/// Cotangents of the noisy shape would themselves be noisy. They are taken from the mesh after some passes of the limit
+/// matrix.
 MeshSeries make_series(const Topology& topology, const Scheme& scheme, SeriesMatrix matrix,
                        const Buffer<std::uint8_t>& kept, ConstValuesRef points, const Progress& progress) {
   constexpr int kPasses = 8;

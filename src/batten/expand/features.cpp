@@ -13,7 +13,7 @@ namespace batten {
 
 namespace {
 
-/// Unit normals and areas of the faces.
+/// The unit normals and areas of the faces.
 struct FaceNormals {
   Points normals;
   Eigen::VectorXd areas;
@@ -32,7 +32,7 @@ FaceNormals face_normals(const Topology& topology, ConstValuesRef points) {
   return faces;
 }
 
-/// One pass: each normal with the neighbours', those the more that are like it.
+/// One pass: averages each normal with those of its neighbours, weighted by how similar they are.
 Points smoothed(const Topology& topology, const FaceNormals& faces, double likeness) {
   Points next(faces.normals.rows(), 3);
   parallel_for(topology.face_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
@@ -63,7 +63,7 @@ std::vector<Crease> find_features(const Topology& topology, ConstValuesRef point
     throw Error(ErrorCode::BadArgument, "the angle of a sharp edge must be between 0 and 180 degrees");
   const double angle = options.degrees * std::numbers::pi / 180.0;
   FaceNormals faces = face_normals(topology, points);
-  // Half of the distance between two unit normals at that angle: across a sharp edge a weight of e^-2 or less.
+  // Half of the distance between two unit normals at that angle. Across a sharp edge the weight is e^-2 or less.
   const double likeness = std::sin(0.5 * angle);
   for (int pass = 0; pass < options.normal_passes; ++pass) {
     report_progress(progress, static_cast<double>(pass) / options.normal_passes);

@@ -1,4 +1,5 @@
-/// \file Sharp edges of a shape, found by the angle between faces: noise is smoothed along them and not across.
+/// \file Finds the sharp edges of a shape by the angle between faces, so that noise is smoothed along them and not
+/// across.
 #pragma once
 #include <vector>
 
@@ -8,14 +9,14 @@ namespace batten {
 
 /// What counts as a sharp edge.
 struct FeatureOptions {
-  double degrees = 40.0;   ///< between the normals of its two faces, in (0, 180)
-  int least_edges = 5;     ///< of a connected set of sharp edges; smaller ones are noise
-  int normal_passes = 10;  ///< over the normals before they are compared
+  double degrees = 40.0;   ///< the least angle between the normals of its two faces, in (0, 180)
+  int least_edges = 5;     ///< of a connected set of sharp edges; smaller sets are noise
+  int normal_passes = 10;  ///< smoothing passes over the normals before they are compared
 };
 
-/// The sharp edges, as infinitely sharp creases; what is a crease or a boundary already is not among them. Normals are
-/// smoothed first, each face's with its neighbours' whose normals are like its own (bilateral filtering as by Zheng and
-/// others 2011, key ZFAT11), so that noise makes no edges and edges stay. O(H) a pass.
+/// The sharp edges as infinitely sharp creases, without those that already are creases or boundaries. Normals are
+/// smoothed first: each face's with those of neighbours that are similar (bilateral filtering as in Zheng and others
+/// 2011, key ZFAT11), which removes noise and keeps edges. O(H) for each pass.
 /// points: V-by-3. Throws Error(BadShape, BadArgument, Cancelled).
 std::vector<Crease> find_features(const Topology& topology, ConstValuesRef points, const FeatureOptions& options = {},
                                   const Progress& progress = {});

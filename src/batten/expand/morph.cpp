@@ -30,7 +30,7 @@ void require_time(double t) {
   throw Error(ErrorCode::BadArgument, "the time of a morph lies in [0, 1], not at " + std::to_string(t));
 }
 
-/// The smoothings of the difference before target i: 0, 1, 4, 16, ...
+/// The number of smoothings of the difference in target i: 0, 1, 4, 16, ...
 int smoothings(int target) { return target == 0 ? 0 : 1 << 2 * (target - 1); }
 
 std::string face_text(const Mesh& mesh, Index face) {
@@ -41,7 +41,7 @@ std::string face_text(const Mesh& mesh, Index face) {
   return text;
 }
 
-/// The same corners in the same order, whichever comes first.
+/// True if both faces have the same corners in the same order, from any first corner.
 bool same_face(const Mesh& a, const Mesh& b, Index face) {
   const Index size = a.face_size(face);
   if (b.face_size(face) != size) return false;

@@ -1,5 +1,5 @@
-/// \file From one shape to another of the same connectivity, overall shape and detail at their own times (Lai and Cheng
-/// 2006, key LC06, section 7; docs/mathematics.md, The mesh series).
+/// \file Morphs one shape into another of the same connectivity, with the overall shape and the detail at different
+/// times (Lai and Cheng 2006, key LC06, section 7; docs/mathematics.md, The mesh series).
 #pragma once
 #include <vector>
 
@@ -7,32 +7,31 @@
 
 namespace batten {
 
-/// What moves first on the way. The overall shape runs evenly; detail runs behind it or before it.
+/// What moves first. The overall shape moves evenly; the detail moves before or after it.
 enum class MorphOrder {
-  LowFirst,  ///< the overall shape, then the detail
-  LowLast    ///< the detail, then the overall shape: as in the paper
+  LowFirst,  ///< the overall shape moves first, then the detail
+  LowLast    ///< the detail moves first, then the overall shape, as in the paper
 };
 
-/// How to morph. D is the partial sum of the mesh series' terms 0 .. m.
+/// Options of Morph. D is the partial sum of the mesh series' terms 0 .. m.
 struct MorphOptions {
   int m = 1;
-  int stages = 4;  ///< the differences are smoothed 1, 4, .., 4^(stages-1) times by D; 0: straight lines
+  int stages = 4;  ///< D smooths the difference 1, 4, .., 4^(stages-1) times; 0: straight lines
   MorphOrder order = MorphOrder::LowFirst;
 };
 
-/// X(t) for t in [0, 1], with X(0) = from and X(1) = to, bit for bit. Detail of the difference `from - to` fades before
-/// its overall shape (LowLast):
+/// X(t) for t in [0, 1] with X(0) = from and X(1) = to, bit for bit. With LowLast, the detail of the difference `from -
+/// to` fades before its overall shape:
 ///   X(t) = to + (1 - t) D^p(t) (from - to)
-/// where p(t) runs from 0 through 1, 4, 16, .. at even times to 4^(stages-1), linear in D^p between them. A mode with
-/// the eigenvalue a of A is (1 - t) (1 - (1 - a)^(m+1))^p(t) of its way from its end; a translation, whose a is 1, runs
-/// evenly, so centroids need no aligning. LowFirst is the same run backwards from `to`.
+/// p(t) takes the values 0, 1, 4, 16, .., 4^(stages-1) at even times, and D^p is linear between them. A mode of
+/// eigenvalue a of A has the factor (1 - t) (1 - (1 - a)^(m+1))^p(t). A translation, whose a is 1, moves evenly, so
+/// centroids need not be aligned. LowFirst is the same motion backwards from `to`.
 ///
-/// So X(t) = base + sum_i weight_i(t) target_i, with targets that do not depend on t: morph targets of an animation.
-/// Build: 4^(stages-1) (m+1) applications of A. Memory: stages + 3 times the values. at(): O(values).
+/// X(t) = base + sum_i weight_i(t) target_i with targets that do not depend on t, which are the morph targets of an
+/// animation. Build: 4^(stages-1) (m+1) applications of A. Memory: stages + 3 times the values. at(): O(values).
 class Morph {
  public:
-  /// from, to: V-by-k, k as you like. Throws Error: BadShape, NotFinite, BadArgument (m or stages out of range),
-  /// Cancelled.
+  /// from, to: V-by-k for any k. Throws Error: BadShape, NotFinite, BadArgument (m or stages out of range), Cancelled.
   Morph(const MeshSeries& series, ConstValuesRef from, ConstValuesRef to, const MorphOptions& options = {},
         const Progress& progress = {});
 
@@ -41,9 +40,9 @@ class Morph {
 
   const Values& base() const { return options_.order == MorphOrder::LowLast ? to_ : from_; }
   const std::vector<Values>& targets() const { return targets_; }
-  /// One a target; up to two are not 0. Throws Error(BadArgument) for t outside [0, 1].
+  /// One weight for each target; at most two are not 0. Throws Error(BadArgument) for t outside [0, 1].
   std::vector<double> weights(double t) const;
-  /// Times between which weights are polynomials of degree 2: 0, 1/stages, .., 1.
+  /// The times 0, 1/stages, .., 1, between which weights are polynomials of degree 2.
   std::vector<double> knots() const;
 
  private:
@@ -53,23 +52,23 @@ class Morph {
   std::vector<Values> targets_;
 };
 
-/// The paper's sequence (9): Q_0 = from, Q_(k+1) = to + rho D (Q_k - to).
+/// Options of the paper's sequence (9): Q_0 = from, Q_(k+1) = to + rho D (Q_k - to).
 struct MorphSequenceOptions {
   int m = 1;
-  double rho = 0.8;  ///< in (0, 1]; the smaller, the faster
+  double rho = 0.8;  ///< in (0, 1]; smaller is faster
   int steps = 10;
-  /// Weighted centroids (MeshSeries::weighted_centroid) are laid on each other first, and run evenly from the one to
-  /// the other. Otherwise the centroid is as slow as rho, and for rho = 1 stays where it is.
+  /// Aligns the weighted centroids (MeshSeries::weighted_centroid) first and moves them evenly from one to the other.
+  /// Otherwise the centroid converges by the factor rho for each step, and not at all for rho = 1.
   bool align = true;
 };
 
-/// Q_0 .. Q_steps; the last ones come near to `to` and do not reach it. A mode with the eigenvalue a is
-/// (rho (1 - (1 - a)^(m+1)))^k of its way from it. Throws as Morph does.
+/// Q_0 .. Q_steps. The last ones approach `to` and do not reach it: a mode of eigenvalue a has the factor (rho (1 - (1
+/// - a)^(m+1)))^k. Throws as Morph does.
 std::vector<Values> morph_sequence(const MeshSeries& series, ConstValuesRef from, ConstValuesRef to,
                                    const MorphSequenceOptions& options = {}, const Progress& progress = {});
 
-/// Throws Error(BadShape), naming the first difference, unless both have as many vertices and the same faces in the
-/// same order; a face may start at another of its vertices.
+/// Throws Error(BadShape), naming the first difference, unless both have the same number of vertices and the same faces
+/// in the same order. A face may start at another of its vertices.
 void require_same_connectivity(const Mesh& a, const Mesh& b);
 
 }  // namespace batten

@@ -11,7 +11,7 @@
 namespace batten {
 namespace {
 
-/// surface_mesh() writes the normals at the vertices, and once more at the corners where sides differ.
+/// The normals of surface_mesh(), which are at the vertices and, where sides differ, at the corners too.
 Values normals_of(const Mesh& mesh, bool at_corners) {
   const Attribute* vertices = nullptr;
   const Attribute* corners = nullptr;
@@ -58,14 +58,14 @@ MorphSurface morph_surface(const Topology& topology, const Scheme& scheme, const
   base.points = morph.base();
   MorphSurface result;
   result.mesh = surface_mesh(topology, scheme, base, levels, progress_within(progress, 0.0, share));
-  Mesh bare = control;  // what moves needs no colours
+  Mesh bare = control;  // moving targets need no colours
   bare.attributes.clear();
   const std::vector<double> knots = morph.knots();
   std::vector<Mesh> moved;
   bool at_corners = has_corner_normals(result.mesh);
   std::vector<double> weights;
   for (std::size_t i = 0; i < count; ++i) {
-    // Alone at its knot, it has this weight there; the last one fades to nothing, and is taken on its way.
+    // Only this target has a weight at its knot. The last one fades to zero and is evaluated on the way.
     double weight = 0.0;
     for (const double knot : knots) weight = std::max(weight, morph.weights(knot)[i]);
     if (weight == 0.0) weight = 0.25 / static_cast<double>(count);

@@ -5,16 +5,16 @@
 
 namespace batten {
 
-/// The surface of a morph's base, and what is added to it.
+/// The surface of a morph's base and the targets that are added to it.
 struct MorphSurface {
   Mesh mesh;  ///< surface_mesh() of the base
   MorphTargets targets;
 };
 
-/// morph: of control points (k = 3); control: their mesh, whose points do not matter. The surface is refined `levels`
-/// times. Points are exact at all times, for surfaces are linear in their control points, but for weights that run
-/// linearly between `frames` + 1 even times and the morph's knots; normals are exact at the knots.
-/// Throws what surface_mesh throws, and Error(BadArgument) for frames below 1 or a duration that is not above 0.
+/// morph: of control points (k = 3). control: their mesh, whose points are ignored. The surface is refined `levels`
+/// times. Since surfaces are linear in their control points, points are exact at all times, apart from weights that are
+/// linear between `frames` + 1 even times and the morph's knots; normals are exact at the knots.
+/// Throws what surface_mesh throws, and Error(BadArgument) for frames below 1 or a duration of 0 or less.
 MorphSurface morph_surface(const Topology& topology, const Scheme& scheme, const Mesh& control, const Morph& morph,
                            int levels, int frames, double seconds, const Progress& progress = {});
 

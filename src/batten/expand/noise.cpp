@@ -26,7 +26,7 @@ void require_points(const MeshSeries& series, ConstValuesRef points, ConstValues
     throw Error(ErrorCode::BadShape, "noise is measured on points and normals of three columns");
 }
 
-/// The same numbers from every compiler, which std::normal_distribution does not promise.
+/// Normally distributed numbers that are the same for every compiler, unlike those of std::normal_distribution.
 Values normal_numbers(Index rows, Index columns) {
   std::mt19937_64 generator(kSeed);
   const auto uniform = [&] { return (static_cast<double>(generator() >> 11) + 0.5) * 0x1p-53; };
@@ -51,11 +51,11 @@ double along_normal(ConstValuesRef vectors, ConstValuesRef normals, Eigen::Index
 /// Sums over the measured vertices.
 struct Removed {
   double squares = 0.0;  ///< of what was removed along the normal
-  double noise = 0.0;    ///< of what unit noise loses, squared
-  double trace = 0.0;    ///< of the smoothing
+  double noise = 0.0;    ///< of what unit noise would lose, squared
+  double trace = 0.0;    ///< of the smoothing matrix
 };
 
-/// start: the points, and random signs; now: the same, smoothed.
+/// start: the points and random signs; now: the same after smoothing.
 Removed measure(const MeshSeries& series, const Values& start, const Values& now, ConstValuesRef normals) {
   const auto rows = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     Removed sums;
@@ -103,7 +103,7 @@ SmoothingChoice choose_smoothing(const MeshSeries& series, ConstValuesRef points
   require_points(series, points, normals);
   static constexpr int kStops[] = {1,  2,  3,  4,  5,  6,  8,   10,  12,  14,  16,  20,  24,  28,  32,
                                    40, 48, 56, 64, 80, 96, 128, 160, 200, 256, 320, 400, 512, 640, 800};
-  constexpr int kWorseInARow = 3;  // then no later stop will be better
+  constexpr int kWorseInARow = 3;  // after so many, no later choice is better
   const Index count = series.topology().vertex_count();
   Index measured = 0;
   for (Index v = 0; v < count; ++v) measured += is_measured(series, v) ? 1 : 0;

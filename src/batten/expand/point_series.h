@@ -1,10 +1,10 @@
-/// \file The series of a mesh's own points, as sharpening and bands take it.
+/// \file The mesh series of a mesh's own points, for sharpening and bands.
 #pragma once
 #include "batten/expand/mesh_series.h"
 
 namespace batten {
 
-/// 1 at each vertex of a boundary, 0 at the others: for SeriesOptions::kept.
+/// 1 at each boundary vertex, 0 at the others, for SeriesOptions::kept.
 inline Buffer<std::uint8_t> boundary_marks(const Topology& topology) {
   Buffer<std::uint8_t> marks(static_cast<std::size_t>(topology.vertex_count()), 0);
   for (Index v = 0; v < topology.vertex_count(); ++v)
@@ -12,7 +12,7 @@ inline Buffer<std::uint8_t> boundary_marks(const Topology& topology) {
   return marks;
 }
 
-/// Cotangents are those of the points.
+/// Options in which cotangents are those of the points.
 inline SeriesOptions series_of_points(SeriesMatrix matrix, bool keep_boundary, const Topology& topology,
                                       ConstValuesRef points) {
   SeriesOptions options;

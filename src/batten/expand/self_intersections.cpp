@@ -43,7 +43,7 @@ struct Triangle {
   Index face;
 };
 
-/// Every third bit of a number of 21 bits.
+/// Spreads the 21 bits of a number to every third bit.
 std::uint64_t spread(std::uint64_t x) {
   x = (x | x << 32) & 0x1f00000000ffffULL;
   x = (x | x << 16) & 0x1f0000ff0000ffULL;
@@ -52,7 +52,8 @@ std::uint64_t spread(std::uint64_t x) {
   return (x | x << 2) & 0x1249249249249249ULL;
 }
 
-/// Triangles in the order of a space-filling curve, under levels of boxes around eight of the level below.
+/// Triangles in the order of a space-filling curve, below levels of boxes, each of which encloses eight of the level
+/// below.
 class TriangleTree {
  public:
   TriangleTree(const Topology& topology, ConstValuesRef points) : points_(points) {
@@ -74,7 +75,7 @@ class TriangleTree {
   std::ptrdiff_t count() const { return static_cast<std::ptrdiff_t>(triangles_.size()); }
   const Triangle& triangle(std::ptrdiff_t t) const { return triangles_[t]; }
 
-  /// Calls visit(other) for the triangles behind t in the order whose boxes meet t's.
+  /// Calls visit(other) for the triangles after t in the order whose boxes meet t's.
   template <typename Visit>
   void behind(std::ptrdiff_t t, const Visit& visit) const {
     const Box& own = levels_[0][t];
@@ -108,7 +109,7 @@ class TriangleTree {
     return (place + 1) * width - 1;
   }
 
-  /// Floats rounded outwards.
+  /// The bounds rounded outwards to float.
   Box box_of(const Triangle& triangle) const {
     Box box = Box::empty();
     for (const Index v : triangle.vertices) {
@@ -156,7 +157,7 @@ class TriangleTree {
   std::vector<Buffer<Box>> levels_;
 };
 
-/// Six times the volume of the tetrahedron, or 0 where rounding could have made its sign.
+/// Six times the volume of the tetrahedron, or 0 if rounding could have changed its sign.
 double volume(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, const Eigen::Vector3d& d) {
   constexpr double kRounding = 32.0 * std::numeric_limits<double>::epsilon();
   const Eigen::Vector3d u = b - a;
@@ -184,7 +185,7 @@ class PairTest {
  private:
   Eigen::Vector3d at(Index v) const { return points_.row(v).transpose(); }
 
-  /// An edge of `a` that has no corner of `b` runs through it.
+  /// True if an edge of `a` without a corner of `b` passes through b.
   bool edges_cross(const std::array<Index, 3>& a, const std::array<Index, 3>& b) const {
     for (int i = 0; i < 3; ++i) {
       const Index from = a[i];

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kCells = 27;
 
-/// Four random numbers of four (pcg4d, key JO20).
+/// Hashes four numbers to four random numbers (pcg4d, key JO20).
 struct Hash {
   std::uint32_t x;
   std::uint32_t y;
@@ -41,9 +41,9 @@ inline Hash hash(std::uint32_t x, std::uint32_t y, std::uint32_t z, std::uint32_
 }  // namespace
 
 double solid_noise(const Eigen::Vector3d& point, std::uint32_t seed) {
-  // In [0, 1), of 31 bits: signed integers become doubles in one instruction.
+  // The result is in [0, 1) with 31 bits, because a signed integer becomes a double in one instruction.
   constexpr double kUnit = 1.0 / 2147483648.0;
-  // Heights are uniform in [-1, 1], of variance 1/3; the square of the kernel has the integral 2 pi B(3/2, 7).
+  // Heights are uniform in [-1, 1] and have the variance 1/3. The square of the kernel has the integral 2 pi B(3/2, 7).
   constexpr double kScale = 3.2406267504457724;
   const Eigen::Vector3d floor(std::floor(point.x()), std::floor(point.y()), std::floor(point.z()));
   const Eigen::Vector3d inside = point - floor;

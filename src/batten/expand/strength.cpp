@@ -19,7 +19,7 @@ double wave_remainder(SchemeKind kind, SeriesMatrix matrix, double edges) {
 
 namespace {
 
-/// Of ln(1/2), the share that one pass brings a wave nearer to it.
+/// How many times one pass halves a wave.
 double halvings(SchemeKind kind, SeriesMatrix matrix, int m, double edges) {
   return std::log1p(-std::pow(wave_remainder(kind, matrix, edges), m + 1)) / -std::numbers::ln2;
 }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kLargestFrequency = 1e6;
 constexpr int kMostOctaves = 24;
-/// Edges of a level that samples an octave, at most so long, in units of the octave's features.
+/// The greatest edge length of a level that samples an octave, in units of the octave's features.
 constexpr double kSampling = 0.5;
 
 /// One octave of one noise.
@@ -24,7 +24,7 @@ struct Octave {
   Eigen::Index column;
   int level;
   double amplitude;
-  Eigen::Vector3d frequency;  ///< of the coordinates in diagonals
+  Eigen::Vector3d frequency;  ///< of coordinates in diagonals
   std::uint32_t seed;
 };
 
@@ -40,7 +40,7 @@ void check(const NoiseOptions& noise) {
                   std::to_string(noise.gain));
 }
 
-/// The finalizer of splitmix64 on the seed and the octave, folded.
+/// The finalizer of splitmix64, applied to the seed and the octave and folded to 32 bits.
 std::uint32_t octave_seed(std::uint64_t seed, int octave) {
   std::uint64_t z = seed + 0x9e3779b97f4a7c15ULL * (static_cast<std::uint64_t>(octave) + 1);
   z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9ULL;
@@ -49,7 +49,7 @@ std::uint32_t octave_seed(std::uint64_t seed, int octave) {
   return static_cast<std::uint32_t>(z ^ (z >> 32U));
 }
 
-/// Where the noise is sampled: the surface's points in diagonals from the middle of their box.
+/// The places where noise is sampled: the surface's points in diagonals, relative to the middle of their box.
 struct Places {
   ConstValuesRef points;
   Eigen::RowVector3d centre = Eigen::RowVector3d::Zero();
@@ -66,7 +66,8 @@ struct Places {
   Eigen::Vector3d at(Eigen::Index vertex) const { return (points.row(vertex) - centre).transpose() / diagonal; }
 };
 
-/// Root mean square of the edges, in diagonals: long edges, which hold few numbers on much surface, count most.
+/// The root mean square of the edges' lengths in diagonals. Long edges, which have few samples on much surface,
+/// dominate it.
 double edge_length(const Topology& topology, const Places& places) {
   if (topology.edge_count() == 0) return 0.0;
   const double squares = parallel_reduce<double>(
@@ -101,11 +102,11 @@ std::vector<Octave> octaves_of(std::span<const NoiseOptions> noises, double edge
   return octaves;
 }
 
-/// The random numbers of the octaves that belong to a level, summed.
+/// The sum of the random numbers of all octaves of a level.
 Values numbers_at(const std::vector<Octave>& octaves, int level, const Places& places, Values numbers,
                   const Progress& progress) {
   numbers.setZero();
-  constexpr std::ptrdiff_t kBlock = 512;  // of a microsecond each
+  constexpr std::ptrdiff_t kBlock = 512;  // about a microsecond each
   parallel_for(
       numbers.rows(),
       [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
@@ -160,7 +161,7 @@ Values SurfaceNoise::values(ConstValuesRef points, std::span<const NoiseOptions>
   }
   const Places places(points);
   const std::vector<Octave> octaves = octaves_of(noises, edge_length(topology_, places), levels());
-  Values control;  // of all coarser levels; empty as long as there is none
+  Values control;  // of all coarser levels; empty while there is none
   Scheme scheme = scheme_;
   for (int i = 0; i < levels(); ++i) {
     const double begin = i > 0 ? std::ldexp(1.0, -2 * (levels() - i)) : 0.0;
@@ -183,7 +184,7 @@ Values SurfaceNoise::values(ConstValuesRef points, std::span<const NoiseOptions>
   Values sum = control.size() > 0 ? LimitMatrix(level(levels()), scheme, {}, progress_within(progress, 0.5, 0.55))
                                         .apply(control, progress_within(progress, 0.55, 0.6))
                                   : Values(Values::Zero(vertex_count(), static_cast<Eigen::Index>(noises.size())));
-  // What interpolates at the finest level is there what it interpolates.
+  // At the finest level the control values are the interpolated numbers themselves.
   if (any_at(octaves, levels())) {
     sum += numbers_at(octaves, levels(), places, Values(sum.rows(), sum.cols()), progress_within(progress, 0.6, 1.0));
   }

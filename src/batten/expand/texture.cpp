@@ -20,7 +20,7 @@ void drop_attribute(Mesh& mesh, const std::string& name) {
   all.erase(std::remove_if(all.begin(), all.end(), [&](const Attribute& a) { return a.name == name; }), all.end());
 }
 
-/// Of any length: at each vertex the mean of its corners' normals, so that it stands between the sides of a crease.
+/// Normals of any length: at each vertex the mean of its corners' normals, which lies between the sides of a crease.
 Points vertex_normals(const Mesh& mesh) {
   Points normals = Points::Zero(mesh.vertex_count(), 3);
   for (const Attribute& attribute : mesh.attributes) {
@@ -39,7 +39,7 @@ Points vertex_normals(const Mesh& mesh) {
   return normals;
 }
 
-/// Of the faces around each vertex, by area.
+/// The normals of the faces around each vertex, weighted by area.
 Points flat_normals(const Mesh& mesh) {
   Points normals = Points::Zero(mesh.vertex_count(), 3);
   for (Index f = 0; f < mesh.face_count(); ++f) {
@@ -50,7 +50,7 @@ Points flat_normals(const Mesh& mesh) {
   return normals;
 }
 
-/// In diagonals of the bounding box from its middle, x along its longest side and z along its shortest.
+/// The points in diagonals of the bounding box from its middle, x along its longest side and z along its shortest.
 Points places_of(ConstValuesRef points) {
   Points places(points.rows(), 3);
   if (points.rows() == 0) return places;
@@ -59,7 +59,7 @@ Points places_of(ConstValuesRef points) {
   const Eigen::RowVector3d centre = 0.5 * lowest + 0.5 * highest;
   const Eigen::RowVector3d sides = highest - lowest;
   std::array<int, 3> axes{0, 1, 2};
-  // Sides that rounding alone tells apart keep their order, or a model would look different in another unit.
+  // Sides that differ only by rounding keep their order, so that a model looks the same in another unit.
   constexpr double kLonger = 1.0 + 1e-9;
   for (const int k : {0, 1, 0}) {
     if (sides[axes[k + 1]] > kLonger * sides[axes[k]]) std::swap(axes[k], axes[k + 1]);

@@ -9,7 +9,7 @@ namespace {
 
 using Place = Eigen::Vector3d;
 
-/// 0xRRGGBB, sRGB.
+/// A colour 0xRRGGBB in sRGB.
 std::array<double, 3> hex(unsigned color) {
   constexpr double kWhite = 255.0;
   return {(color >> 16U & 255U) / kWhite, (color >> 8U & 255U) / kWhite, (color & 255U) / kWhite};
@@ -21,13 +21,13 @@ ColorRamp ramp(std::initializer_list<unsigned> colors) {
   return ColorRamp(list);
 }
 
-/// 0 below a, 1 above b, smooth between.
+/// 0 below a, 1 above b, and smooth between them.
 double smooth_step(double a, double b, double x) {
   const double t = std::clamp((x - a) / (b - a), 0.0, 1.0);
   return t * t * (3.0 - 2.0 * t);
 }
 
-/// Dark veins where the noise changes its sign, in a pale ground with clouds.
+/// Dark veins where the noise changes its sign, on a pale ground with clouds.
 Texture marble() {
   const NoiseOptions veins{11, 3.6, 7, 0.5, Place(1.8, 1.0, 1.0)};
   const NoiseOptions clouds{12, 3.0, 4, 0.5};
@@ -41,19 +41,19 @@ Texture marble() {
           ramp({0xf6f4f1, 0xe4e3e2, 0xbfc0c3, 0x8d9198, 0x555b66, 0x2c323d})};
 }
 
-/// Year rings around an axis beside the shape, along it fibres.
+/// Annual rings around an axis beside the shape, with fibres along it.
 Texture wood() {
   const NoiseOptions bend{21, 1.8, 3, 0.4, Place(3.0, 1.0, 1.0)};
   const NoiseOptions fibre{22, 70.0, 2, 0.7, Place(30.0, 1.0, 1.0)};
   return {{bend, fibre},
           [](const Place& place, const double* n) {
-            constexpr double kRings = 15.0;  // a feature of the first noise
+            constexpr double kRings = 15.0;  // per feature of the first noise
             constexpr double kTilt = 0.14;
             const double radius =
                 std::hypot(place.y() + 0.22 + kTilt * place.x(), place.z() + 0.34 - kTilt * place.x()) + 0.035 * n[0];
             const double ring = kRings * radius;
             const double year = ring - std::floor(ring);
-            // Early wood is pale and darkens slowly; late wood ends at once.
+            // Early wood is pale and darkens slowly; late wood ends abruptly.
             const double late = std::pow(year, 2.5) * (1.0 - smooth_step(0.9, 1.0, year));
             return 0.2 + 0.62 * late + 0.1 * n[1];
           },
@@ -75,7 +75,7 @@ Texture granite() {
           ramp({0x16171a, 0x4a4a4d, 0x86868a, 0xb3aeab, 0xcfa898, 0xdcc3b4, 0xf0ebe4})};
 }
 
-/// Steel that patches of rust eat.
+/// Steel with patches of rust.
 Texture rust() {
   const NoiseOptions patches{41, 3.6, 6, 0.62};
   const NoiseOptions pits{42, 22.0, 4, 0.7};
@@ -123,7 +123,7 @@ Texture preset_texture(TexturePreset preset, const PresetOptions& options) {
   if (options.gain >= 0.0) first.gain = options.gain;
   for (NoiseOptions& noise : texture.noises) {
     noise.frequency *= scale;
-    // Not seed + 1 for the next: textures of neighbouring seeds would share noises.
+    // With seed + 1, textures of neighbouring seeds would share noises.
     noise.seed = options.seed * 0x9e3779b97f4a7c15ULL + noise.seed;
   }
   return texture;

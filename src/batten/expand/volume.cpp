@@ -37,7 +37,7 @@ ComponentVolumes component_volumes(const Topology& topology, ConstValuesRef poin
   for (Index v = 0; v < topology.vertex_count(); ++v) {
     if (topology.is_isolated(v) || topology.is_boundary_vertex(v)) result.closed[of_vertex[v]] = 0;
   }
-  // About each component's first vertex, so that a mesh far from the origin keeps its digits.
+  // Volumes are computed about each component's first vertex, so that a mesh far from the origin loses no digits.
   std::vector<Index> first(count, -1);
   for (Index v = 0; v < topology.vertex_count(); ++v) {
     if (first[of_vertex[v]] < 0) first[of_vertex[v]] = v;

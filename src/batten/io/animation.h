@@ -1,4 +1,4 @@
-/// \file A mesh that moves, to a file.
+/// \file Writes a mesh with an animation.
 #pragma once
 #include <string>
 
@@ -7,10 +7,10 @@
 
 namespace batten {
 
-/// GLB only: the mesh as write_mesh() writes it, with morph targets for positions and normals and an animation of their
-/// weights, linear between the times. A viewer plays it; a program that knows no animations shows the mesh at the first
-/// time. Throws what write_mesh throws, Error(UnknownFormat) for other file types, and Error(BadShape, BadArgument,
-/// NotFinite) for targets that do not fit the mesh or times that do not rise.
+/// Writes a GLB: the mesh as write_mesh() writes it, with morph targets for positions and normals and an animation of
+/// their weights, which are linear between the times. Viewers play it; a program without animations shows the mesh at
+/// the first time. Throws what write_mesh throws, Error(UnknownFormat) for other file types, and Error(BadShape,
+/// BadArgument, NotFinite) for targets that do not fit the mesh or times that do not increase.
 void write_animation(const std::string& path, const Mesh& mesh, const MorphTargets& targets,
                      const std::string& format = "", const Progress& progress = {});
 

@@ -1,4 +1,4 @@
-/// \file Numbers in bytes, in the order that the file has, not the machine.
+/// \file Numbers as bytes, in the byte order of the file.
 #pragma once
 #include <bit>
 #include <cstdint>
@@ -28,7 +28,7 @@ Unsigned reversed_bytes(Unsigned value) {
   return static_cast<Unsigned>(__builtin_bswap64(value));
 }
 
-/// A number at any address.
+/// Reads a number at any address.
 template <typename T, ByteOrder Order>
 T load(const char* at) {
   UnsignedOf<sizeof(T)> bits;
@@ -39,7 +39,7 @@ T load(const char* at) {
   return value;
 }
 
-/// Little-endian numbers, one behind the other.
+/// A sequence of little-endian numbers.
 class ByteBuffer : public OutputBuffer {
  public:
   template <typename T>

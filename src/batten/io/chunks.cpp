@@ -6,7 +6,7 @@ namespace batten::io {
 
 namespace {
 
-/// The first position after `from` where a new line starts for certain.
+/// The first position after `from` that certainly starts a line.
 const char* next_line(const char* from, const char* begin, const char* end) {
   while (from < end) {
     const void* found = std::memchr(from, '\n', static_cast<std::size_t>(end - from));

@@ -1,4 +1,4 @@
-/// \file Text in pieces that end where lines end, parsed in parallel with results and errors as if it were one piece.
+/// \file Text in pieces of whole lines, parsed in parallel with the same results and errors as a single piece.
 #pragma once
 #include <optional>
 #include <string_view>
@@ -9,10 +9,10 @@
 
 namespace batten::io {
 
-/// Cuts at line ends that no backslash continues, into pieces of about chunk_bytes.
+/// Cuts the text into pieces of about chunk_bytes, at line ends without a backslash.
 std::vector<std::string_view> cut_lines(std::string_view text, std::size_t chunk_bytes);
 
-/// Calls body(i) for i in [0, count) in parallel, and throws the Fault of the lowest i that has one.
+/// Calls body(i) for i in [0, count) in parallel. Throws the Fault of the lowest i that has one.
 template <typename Body>
 void for_each_chunk(std::size_t count, const Body& body, const Progress& progress) {
   std::vector<std::optional<Fault>> faults(count);
@@ -29,7 +29,7 @@ void for_each_chunk(std::size_t count, const Body& body, const Progress& progres
   }
 }
 
-/// Lines that hold something else than a comment, numbered through the chunks.
+/// Lines with content other than comments, numbered across the pieces.
 struct Rows {
   struct Chunk {
     std::string_view text;
@@ -39,11 +39,11 @@ struct Rows {
   std::ptrdiff_t count = 0;
 };
 
-/// Cuts the source, or the part of it that is given, and counts its rows: the first third of the source's progress.
+/// Cuts the source, or the given part of it, and counts its rows. This is the first third of the source's progress.
 Rows find_rows(const Source& source, std::string_view text, char separator = ' ');
 
-/// Calls body(scanner, row, chunk) at the start of each row; the body must take every token of the line. The rest of
-/// the source's progress.
+/// Calls body(scanner, row, chunk) at the start of each row. The body must read every token of the line. This is the
+/// rest of the source's progress.
 template <typename Body>
 void for_each_row(const Source& source, const Rows& rows, const Body& body, char separator = ' ') {
   const auto read = [&](std::size_t chunk) {

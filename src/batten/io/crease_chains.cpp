@@ -17,7 +17,7 @@ struct Spoke {
 
 auto key(const Spoke& spoke) { return std::make_tuple(spoke.sharpness, spoke.from, spoke.to); }
 
-/// Both spokes of every edge, sorted by sharpness and vertex; of equal edges the last.
+/// Both spokes of every edge, sorted by sharpness and vertex. The last of several equal edges is kept.
 std::vector<Spoke> sorted_spokes(const std::vector<Crease>& creases) {
   std::vector<Spoke> edges;
   edges.reserve(creases.size());
@@ -59,7 +59,7 @@ class ChainWalk {
     std::size_t count;
   };
 
-  /// The spokes of a vertex with a sharpness.
+  /// The spokes of this sharpness at a vertex.
   Range at(double sharpness, Index vertex) const {
     const auto before = [](const Spoke& a, const Spoke& b) {
       return std::make_pair(a.sharpness, a.from) < std::make_pair(b.sharpness, b.from);

@@ -6,14 +6,14 @@
 
 namespace batten::io {
 
-/// Consecutive edges of one sharpness; a closed one ends with its first vertex.
+/// Consecutive edges of the same sharpness. A closed chain repeats its first vertex at the end.
 struct CreaseChain {
   std::vector<Index> vertices;
   double sharpness;
 };
 
-/// Every edge that is tagged with a sharpness above 0 once, with its last tag; sharpness at most kInfiniteSharpness.
-/// Chains end where the number of edges of their sharpness is not two. O(n log n).
+/// The chains contain every edge with a sharpness above 0 once, with its last tag and at most kInfiniteSharpness. A
+/// chain ends where the number of edges of its sharpness is not two. O(n log n).
 std::vector<CreaseChain> crease_chains(const std::vector<Crease>& creases);
 
 }  // namespace batten::io

@@ -1,4 +1,4 @@
-/// \file A unit normal for every corner that is drawn, for formats that must have one.
+/// \file A unit normal for every visible corner, for formats that require one.
 #pragma once
 #include <cstdint>
 
@@ -7,22 +7,22 @@
 
 namespace batten::io {
 
-/// One flag a face: tagged as a hole.
+/// A flag for each face: 1 if it is tagged as a hole.
 Buffer<std::uint8_t> hidden_faces(const Mesh& mesh);
 
-/// The mesh's own normals, at unit length. Where it has none, or a zero: the mean of the faces' normals at the vertex,
-/// weighted by area; where that is zero too (faces without area), +z. The mesh must outlive it.
+/// The mesh's own normals at unit length. Where a normal is missing or zero, it is the mean of the faces' normals at
+/// the vertex, weighted by area, or +z where all of these faces have no area. The mesh must outlive this object.
 class DrawnNormals {
  public:
-  /// Throws Error(NotFinite); `name` is the file's. O(V + H), 24 bytes a vertex where a normal is missing.
+  /// `name` is the file's. O(V + H), 24 bytes for each vertex if a normal is missing. Throws Error(NotFinite).
   DrawnNormals(const std::string& name, const Mesh& mesh, const Buffer<std::uint8_t>& hidden);
 
   Eigen::RowVector3d at(Index corner) const { return unit(own_.row(mesh_, corner), mesh_.face_vertices[corner]); }
-  /// Where no corner of the vertex has a normal of its own.
+  /// The normal at a vertex none of whose corners has a normal of its own.
   Eigen::RowVector3d at_vertex(Index vertex) const { return unit(own_.attribute != nullptr ? vertex : -1, vertex); }
 
  private:
-  /// A row that is there and not zero.
+  /// True if the row exists and is not zero.
   bool is_given(Index row) const;
   Eigen::RowVector3d unit(Index row, Index vertex) const;
 

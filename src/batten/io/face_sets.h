@@ -1,4 +1,4 @@
-/// \file The faces by material.
+/// \file The faces grouped by material.
 #pragma once
 #include <string>
 #include <utility>
@@ -8,13 +8,13 @@
 
 namespace batten::io {
 
-/// Consecutive faces [first, second) of one name, in ascending ranges.
+/// The faces of one material, as ascending ranges [first, second).
 struct FaceSet {
-  std::string name;  ///< as after OBJ's usemtl; empty for the faces before the first
+  std::string name;  ///< the name after OBJ's usemtl; empty for the faces before the first usemtl
   std::vector<std::pair<Index, Index>> ranges;
 };
 
-/// Every face belongs to one set; sets in the order of their first faces, none empty.
+/// Every face belongs to exactly one set. The sets are in the order of their first faces, and none is empty.
 std::vector<FaceSet> faces_by_material(const Mesh& mesh);
 
 }  // namespace batten::io

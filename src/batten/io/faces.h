@@ -12,8 +12,7 @@ struct FaceList {
   Buffer<Index> vertices;
 };
 
-/// Puts the parts one after the other into mesh.face_offsets and mesh.face_vertices, and empties them on the way.
-/// Throws Error(TooLarge).
+/// Concatenates the parts into mesh.face_offsets and mesh.face_vertices and empties them. Throws Error(TooLarge).
 void join_faces(const std::string& name, std::vector<FaceList>& parts, Mesh& mesh);
 
 }  // namespace batten::io

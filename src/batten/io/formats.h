@@ -15,13 +15,13 @@ Mesh read_off(const Source& source);
 Mesh read_stl(const Source& source);
 Mesh read_xyz(const Source& source);
 
-/// The writers trust the mesh: require_writable (write_check.h) comes first.
+/// The writers do not check the mesh: require_writable (write_check.h) must be called first.
 void write_obj(OutputFile& file, const Mesh& mesh);
 void write_ply(OutputFile& file, const Mesh& mesh, Encoding encoding);
 void write_off(OutputFile& file, const Mesh& mesh);
 void write_stl(OutputFile& file, const Mesh& mesh, Encoding encoding);
 void write_xyz(OutputFile& file, const Mesh& mesh);
-/// In builds with tinygltf (BATTEN_WITH_GLTF). targets: null, or what animation.h checked.
+/// In builds with tinygltf (BATTEN_WITH_GLTF) only. targets: null, or targets that write_animation has checked.
 void write_glb(OutputFile& file, const Mesh& mesh, const MorphTargets* targets = nullptr);
 void write_usda(OutputFile& file, const Mesh& mesh);
 

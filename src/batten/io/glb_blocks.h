@@ -13,10 +13,10 @@
 
 namespace batten::io {
 
-/// Appends blocks to the first buffer of a model; every block begins on a multiple of four bytes, as glTF asks.
+/// Appends blocks to the first buffer of a model. Every block begins at a multiple of four bytes, as glTF requires.
 class GlbBlocks {
  public:
-  /// `bytes`: what all blocks will need. Throws Error(TooLarge) where the format's 32-bit lengths cannot count them.
+  /// `bytes`: the size of all blocks together. Throws Error(TooLarge) if it exceeds the format's 32-bit lengths.
   GlbBlocks(const std::string& name, tinygltf::Model& model, std::size_t bytes) : model_(model) {
     constexpr std::size_t kLargest = std::numeric_limits<std::uint32_t>::max() - (std::size_t{1} << 20);
     if (bytes > kLargest) {
@@ -27,7 +27,7 @@ class GlbBlocks {
     model_.buffers[0].data.reserve(bytes);
   }
 
-  /// row_of(i): K numbers for i in [0, count), written as floats. Returns the accessor's index.
+  /// Appends K numbers row_of(i) for each i in [0, count), as floats. Returns the accessor's index.
   template <int K, typename RowOf>
   int add_floats(std::ptrdiff_t count, const RowOf& row_of) {
     tinygltf::Accessor accessor;
@@ -45,10 +45,10 @@ class GlbBlocks {
     return static_cast<int>(model_.accessors.size()) - 1;
   }
 
-  /// One after the other, as floats, for animations. Returns the accessor's index.
+  /// Appends single numbers as floats, for animations. Returns the accessor's index.
   int add_numbers(const double* numbers, std::ptrdiff_t count);
 
-  /// fill(target) writes `count` indices of the given type.
+  /// Appends `count` indices, which fill(target) writes.
   template <typename Index, typename Fill>
   int add_indices(std::size_t count, const Fill& fill) {
     tinygltf::Accessor accessor;
@@ -64,11 +64,11 @@ class GlbBlocks {
     return static_cast<int>(model_.accessors.size()) - 1;
   }
 
-  /// The bounds of an accessor of `components` floats, as written.
+  /// Adds the bounds of an accessor of `components` floats, computed from the floats.
   void add_bounds(int accessor, int components = 3);
 
  private:
-  /// target: what a graphics card does with it, or 0.
+  /// target: the block's use on a graphics card, or 0.
   unsigned char* add_block(std::size_t bytes, int target, tinygltf::Accessor accessor);
 
   tinygltf::Model& model_;

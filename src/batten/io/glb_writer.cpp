@@ -19,7 +19,7 @@ namespace batten::io {
 
 namespace {
 
-/// tinygltf writes to streams; these bytes go on to the file, whose errors come back through the stream.
+/// A stream for tinygltf that passes its bytes on to the file. The stream carries the file's errors back.
 class FileStream : public std::streambuf {
  public:
   explicit FileStream(OutputFile& file) : file_(file) {}
@@ -39,13 +39,13 @@ class FileStream : public std::streambuf {
   OutputFile& file_;
 };
 
-/// Colours of meshes are sRGB, as those of pictures; glTF's are linear.
+/// Colours of meshes and pictures are sRGB; those of glTF are linear.
 double linear_from_srgb(double value) {
   const double clamped = std::clamp(value, 0.0, 1.0);
   return clamped <= 0.04045 ? clamped / 12.92 : std::pow((clamped + 0.055) / 1.055, 2.4);
 }
 
-/// The model that tinygltf writes: one mesh, one primitive a material, all with the same vertices.
+/// The model that tinygltf writes: one mesh with a primitive for each material, all with the same vertices.
 class SurfaceModel {
  public:
   SurfaceModel(const std::string& name, const Mesh& mesh, const MorphTargets* morph)
@@ -90,7 +90,7 @@ class SurfaceModel {
 
  private:
   std::ptrdiff_t vertex_count() const { return static_cast<std::ptrdiff_t>(corners_.corner_of_vertex.size()); }
-  /// The index 65535 would restart the primitive.
+  /// The index 65535 is reserved: it would restart the primitive.
   bool short_indices() const { return vertex_count() <= 65535; }
 
   std::size_t byte_count() const {
@@ -106,7 +106,7 @@ class SurfaceModel {
            triangles * 3 * (short_indices() ? sizeof(std::uint16_t) : sizeof(std::uint32_t));
   }
 
-  /// A corner without a row takes `otherwise`.
+  /// `otherwise` is the value at corners without a row.
   template <int K>
   Eigen::Matrix<double, 1, K> value(const CornerList& list, Index corner, double otherwise) const {
     const Index row = list.row(mesh_, corner);
@@ -134,7 +134,7 @@ class SurfaceModel {
     if (uv_.attribute != nullptr) {
       attributes["TEXCOORD_0"] = blocks.add_floats<2>(vertex_count(), [&](std::ptrdiff_t i) {
         const Eigen::RowVector2d uv = value<2>(uv_, corner(i), 0.0);
-        return Eigen::RowVector2d(uv[0], 1.0 - uv[1]);  // glTF's v points down
+        return Eigen::RowVector2d(uv[0], 1.0 - uv[1]);  // v points down in glTF
       });
     }
     if (color_.attribute != nullptr && color_.attribute->values.cols() == 4) {
@@ -168,7 +168,7 @@ class SurfaceModel {
     return targets;
   }
 
-  /// The weights at the times, all targets of a time together.
+  /// Adds the weights at the times; the targets of each time are consecutive.
   void add_animation(GlbBlocks& blocks) {
     const std::vector<double>& times = morph_->times;
     const Values& weights = morph_->weights;
@@ -194,7 +194,7 @@ class SurfaceModel {
     material.doubleSided = true;
     material.pbrMetallicRoughness.metallicFactor = 0.0;
     material.pbrMetallicRoughness.roughnessFactor = 0.5;
-    // The colours at the vertices are multiplied with it.
+    // The base colour is multiplied by the colours at the vertices.
     const double grey = color_.attribute != nullptr ? 1.0 : 0.8;
     material.pbrMetallicRoughness.baseColorFactor = {grey, grey, grey, 1.0};
     const bool translucent = color_.attribute != nullptr && color_.attribute->values.cols() == 4 &&
@@ -204,7 +204,7 @@ class SurfaceModel {
     return static_cast<int>(model_.materials.size()) - 1;
   }
 
-  /// For the faces of a set, one after the other, the number of triangles before each; at the end of all.
+  /// The number of triangles before each face of a set, and the total at the end.
   Buffer<Index> first_triangles(const FaceSet& set) const {
     Buffer<Index> first{0};
     for (const auto& range : set.ranges) {
@@ -250,7 +250,7 @@ class SurfaceModel {
   }
 
   const Mesh& mesh_;
-  const MorphTargets* morph_;  ///< or null
+  const MorphTargets* morph_;  ///< may be null
   Buffer<std::uint8_t> hidden_;
   FloatFrame frame_;
   CornerList uv_;

@@ -14,7 +14,7 @@ namespace {
 
 struct Format {
   const char* extension;
-  /// Null where a format is only written.
+  /// Null for formats that are only written.
   Mesh (*read)(const io::Source& source);
   void (*write)(io::OutputFile& file, const Mesh& mesh, io::Encoding encoding);
 };
@@ -39,7 +39,7 @@ constexpr Format kFormats[] = {
     {"usda", nullptr, [](io::OutputFile& file, const Mesh& mesh, io::Encoding) { io::write_usda(file, mesh); }},
 };
 
-/// The format that was asked for, else the one of the extension; a leading dot and capitals do not matter.
+/// The requested format, or that of the extension. A leading dot and capital letters are ignored.
 const Format& find_format(const std::string& path, const std::string& asked) {
   std::string wanted = asked.empty() ? std::filesystem::path(path).extension().string() : asked;
   if (!wanted.empty() && wanted[0] == '.') wanted.erase(0, 1);
@@ -55,7 +55,7 @@ const Format& find_format(const std::string& path, const std::string& asked) {
               (path == "-" ? "standard input or output" : path) + ": " + what + "; give one of " + known);
 }
 
-/// Some editors put this mark of UTF-8 first; it says nothing.
+/// Some editors begin a file with UTF-8's byte order mark, which carries no information.
 std::string_view without_byte_order_mark(std::string_view bytes) {
   constexpr std::string_view kMark = "\xEF\xBB\xBF";
   return bytes.substr(0, kMark.size()) == kMark ? bytes.substr(kMark.size()) : bytes;

@@ -1,26 +1,28 @@
-/// \file Meshes and points, from files and to files. The type follows the extension: .obj .ply .off .stl .xyz, and only
-/// written .glb .usda.
+/// \file Reads and writes meshes and points. The file type follows the extension: .obj .ply .off .stl .xyz, and for
+/// writing only .glb .usda.
 ///
-/// Readers keep every double bit for bit, polygons of any size, and what the file says about the surface. They check
-/// the syntax: a bad token, a missing coordinate, an index out of range throws an Error with the file and the line (in
-/// binary files the element and the byte); of several wrong lines the first one, for any number of threads. A header
-/// that promises more than the file can hold is refused before memory is taken. Whether a surface can be made of the
-/// faces is the business of Topology.
+/// Readers keep every double bit for bit, polygons of any size, and the file's choices about the surface. They check
+/// the syntax: a bad token, a missing coordinate or an index out of range throws an Error that names the file and the
+/// line (in binary files, the element and the byte). Of several wrong lines the first is reported, for any number of
+/// threads. A header that promises more than the file can hold is refused before memory is allocated. Topology checks
+/// whether the faces form a surface.
 ///
-///   OBJ  v (with w, which is skipped, or a colour: "color" where every vertex has one), vt, vn ("uv", "normal" at the
-///        corners; of a file without faces at the vertices, where there is one for each), f with any corners, g o
-///        usemtl s mtllib, and OpenSubdiv's tags `t crease`, `corner`, `hole`, `interpolateboundary`, `creasemethod`,
-///        `smoothtriangles`, whose indices count from 0. All else is skipped. A group without a face is not kept.
-///   PLY  text and both byte orders, any types. nx ny nz are "normal"; red green blue [alpha] "color" (bytes become
-///   k/255);
-///        s t, u v, texture_u texture_v "uv"; other scalars of the vertices one attribute each ("uv_" of a scalar uv).
-///        Other elements are skipped.
-///   OFF  with normals (N), colours (C) and texture coordinates (ST) of the vertices; no binary OFF, no other
-///   dimensions. STL  text and bytes (told apart by the size of the file); equal coordinates become one vertex, in
-///   order of appearance. XYZ  points: 3 columns, or 6 with "normal"; columns of another number are "extra". Blanks or
-///   commas; # comments.
+///   OBJ   v (w is skipped; a colour becomes "color" if every vertex has one), vt, vn ("uv" and "normal" at the
+///         corners, or at the vertices in a file without faces that has one for each), f with any number of corners,
+///         g o usemtl s mtllib, and OpenSubdiv's tags `t crease`, `corner`, `hole`, `interpolateboundary`,
+///         `creasemethod`, `smoothtriangles`, whose indices count from 0. All else is skipped. Groups without faces
+///         are not kept.
+///   PLY   text and both byte orders, any types. nx ny nz become "normal"; red green blue [alpha] become "color"
+///         (bytes become k/255); s t, u v and texture_u texture_v become "uv"; any other scalar of the vertices
+///         becomes an attribute ("uv_" for a scalar called uv). Other elements are skipped.
+///   OFF   with normals (N), colours (C) and texture coordinates (ST) of the vertices. Binary OFF and other
+///         dimensions are not read.
+///   STL   text and bytes, distinguished by the size of the file. Equal coordinates become one vertex, in the order
+///         of appearance.
+///   XYZ   points in 3 columns, or 6 with "normal"; with another number, the further columns are "extra". Blanks or
+///         commas separate numbers; # begins a comment.
 ///
-/// Coordinates and sharpnesses are finite; other attributes may hold NaN and come as the file has them.
+/// Coordinates and sharpness values must be finite. Other attributes may hold NaN and are kept unchanged.
 #pragma once
 #include <string>
 
@@ -29,45 +31,49 @@
 
 namespace batten {
 
-/// Reads a mesh (XYZ: points without faces). "-" reads standard input and needs a format; pipes are read too.
-/// format: one of the extensions; empty: by the extension of the path.
+/// Reads a mesh (XYZ: points without faces). "-" reads standard input and needs a format; pipes can be read too.
+/// format: one of the extensions, or empty for the path's extension.
 /// Throws Error(FileNotReadable, UnknownFormat, BadFile, IndexOutOfRange, NotFinite, TooLarge, Cancelled).
-/// Cost: O(bytes), two cores: OBJ 800 MB/s, binary PLY 1500 MB/s, binary STL 200 MB/s. Memory: the mesh and the file;
-/// OBJ twice the mesh and the file; from any file, however wrong, less than 64 times its size.
+/// Cost: O(bytes); on two cores OBJ 800 MB/s, binary PLY 1500 MB/s, binary STL 200 MB/s. Memory: the mesh and the file;
+/// for OBJ twice the mesh and the file. A broken file never takes more than 64 times its size.
 Mesh read_mesh(const std::string& path, const std::string& format = "", const Progress& progress = {});
 
-/// The name of the format that a path and a wish stand for ("obj"): the wish, else the extension, in lower case and
+/// The name of a file's format, such as "obj": `wish` if given, otherwise the path's extension, in lower case and
 /// without a dot. Throws Error(UnknownFormat).
 std::string file_format(const std::string& path, const std::string& wish = "");
 
-/// How to write.
+/// Options of write_mesh.
 struct WriteOptions {
-  std::string format;  ///< "obj", "ply", "off", "stl", "xyz", "glb", "usda"; empty: by the extension
-  bool binary = true;  ///< PLY and STL: little-endian bytes; otherwise text with the shortest digits that read back
+  std::string format;  ///< "obj", "ply", "off", "stl", "xyz", "glb", "usda"; empty for the path's extension
+  /// PLY and STL: little-endian bytes; otherwise text with the fewest digits that read back exactly.
+  bool binary = true;
 };
 
-/// Writes what the format can hold, in doubles that read back bit for bit.
+/// Writes everything that the format can hold, as doubles that read back bit for bit.
 ///
-///   OBJ   everything but attributes of other names than "uv", "normal" and (at the vertices) "color", and `scheme`
-///   PLY   points, faces, attributes at the vertices (k columns of another name: NAME_0 and so on; colours of k/255 as
-///         bytes)
+///   OBJ   everything except `scheme` and attributes with names other than "uv", "normal" and "color" (at the
+///         vertices)
+///   PLY   points, faces, attributes at the vertices (k columns with another name: NAME_0 and so on; colours that are
+///         all k/255 as bytes)
 ///   OFF   points and faces
 ///   XYZ   points, and "normal" at the vertices
-///   STL   triangles, polygons as fans; in bytes as float, which may bring close vertices together
+///   STL   triangles, polygons as fans; bytes hold floats, in which vertices close to each other may coincide
 ///   GLB   triangles in float, for display: corners with equal "uv", "normal" and "color" share a vertex, v is turned
-///         to point down, colours (taken as sRGB, in [0, 1]) become linear, a usemtl is a primitive with a material of
-///         that name. Normals have unit length; missing and zero ones are the mean of the faces' by area. Holes are
-///         left out. Coordinates stay as they are; where the points lie farther from the origin than their own size the
-///         node has a translation, so that floats are enough. Takes the memory of the file twice besides the mesh.
-///   USDA  a subdivision surface with all its tags, every attribute, usemtl as GeomSubsets; coordinates with all digits
-///         of a double though USD's type is float, and a translation as in GLB. Polygons (subdivisionScheme "none")
-///         with normals when the mesh has normals and nothing that speaks of a surface: no scheme, rule, tag or hole.
+///         to point down, colours (taken as sRGB, in [0, 1]) become linear, and each usemtl is a primitive with a
+///         material of that name. Normals have unit length; missing and zero ones are the mean of the faces' by area.
+///         Holes are left out. Axes are not exchanged. If the points are farther from the origin than their own size,
+///         the node has a translation, so that floats are precise enough. Takes twice the memory of the file besides
+///         the mesh.
+///   USDA  a subdivision surface with all its tags, every attribute, and usemtl as GeomSubsets. Coordinates have all
+///         digits of a double although USD's type is float, and a translation as in GLB. A mesh with normals and
+///         without any choice about a surface (scheme, rule, tag or hole) is written as polygons (subdivisionScheme
+///         "none").
 ///
-/// The old file stays as it was when anything fails (write_atomically). "-" writes to standard output.
-/// Throws Error(FileNotWritable, UnknownFormat, Cancelled), and for a mesh that no reader would take NotFinite,
+/// If anything fails, an existing file stays unchanged (write_atomically). "-" writes to standard output.
+/// Throws Error(FileNotWritable, UnknownFormat, Cancelled), and for a mesh that no reader would accept NotFinite,
 /// BadShape, IndexOutOfRange, DegenerateFace (fewer than three corners), BadArgument (a name with a line end, a
-/// property twice, a coordinate beyond float, semi-sharp Chaikin creases in USDA), TooLarge (a GLB above 4 GiB),
-/// NotAvailable (GLB in a build without tinygltf).
+/// repeated property, a coordinate outside the range of float, semi-sharp Chaikin creases in USDA), TooLarge (a GLB
+/// above 4 GiB), NotAvailable (GLB in a build without tinygltf).
 /// Cost: O(V + F); a few megabytes of memory besides the mesh.
 void write_mesh(const std::string& path, const Mesh& mesh, const WriteOptions& options = {},
                 const Progress& progress = {});

@@ -6,7 +6,7 @@ namespace batten::io {
 
 namespace {
 
-/// -1, 0 or 1: the order of two corners by the values of the lists; no row comes before any row.
+/// -1, 0 or 1: the order of two corners by the values of the lists. A corner without a row comes first.
 int compare(const Mesh& mesh, const std::vector<CornerList>& lists, Index a, Index b) {
   for (const CornerList& list : lists) {
     const Index row_a = list.row(mesh, a);
@@ -43,7 +43,7 @@ VertexCorners visible_corners(const Mesh& mesh, const Buffer<std::uint8_t>& hidd
     sum += start;
     start = sum;
   }
-  // Each start is its vertex's end now; filling from behind brings it to the beginning.
+  // Each start is its vertex's end at this point; filling backwards turns it into the beginning.
   result.corners.resize(static_cast<std::size_t>(sum));
   for_each([&](Index corner) { result.corners[--result.starts[mesh.face_vertices[corner]]] = corner; });
   for (Index vertex = 0; vertex < mesh.vertex_count(); ++vertex) {

@@ -10,9 +10,9 @@ namespace {
 constexpr std::size_t kPointColumns = 3;
 constexpr std::size_t kUvColumns = 2;
 
-/// Reads the lines of one piece. Statements that are skipped, since a subdivision surface has no use for them: l, p,
+/// Reads the lines of one piece. These statements are skipped because a subdivision surface has no use for them: l, p,
 /// vp, curv, curv2, surf, cstype, deg, bmat, step, parm, trim, hole, scrv, sp, end, con, mg, bevel, c_interp, d_interp,
-/// lod, usemap, maplib, shadow_obj, trace_obj, ctech, stech, call, csh, and any word that OBJ does not know.
+/// lod, usemap, maplib, shadow_obj, trace_obj, ctech, stech, call, csh, and any word that OBJ does not define.
 class ObjParser {
  public:
   ObjParser(std::string_view text, ObjPiece& piece) : scanner_(text), piece_(piece) {}
@@ -55,7 +55,7 @@ class ObjParser {
     }
   }
 
-  /// x y z [w], x y z r g b [a].
+  /// Reads what follows x y z: [w], or r g b [a].
   void vertex_extras() {
     double extras[4];
     int count = 0;
@@ -71,7 +71,7 @@ class ObjParser {
     if (*piece_.color_columns != columns) piece_.mixed_columns = true;
   }
 
-  /// u [v [w]]: v is 0 where it is not given, as the format says; w belongs to volume textures and is skipped.
+  /// Reads u [v [w]]. A missing v is 0 as the format says; w belongs to volume textures and is skipped.
   void texture_vertex() {
     piece_.uvs.push_back(scanner_.number("texture coordinate u"));
     piece_.uvs.push_back(scanner_.next_token() ? scanner_.number("texture coordinate v") : 0.0);
@@ -96,7 +96,7 @@ class ObjParser {
     piece_.face_sizes.push_back(static_cast<Index>(size));
   }
 
-  /// i, i/j, i//k or i/j/k; an empty field is none.
+  /// Reads i, i/j, i//k or i/j/k. An empty field means no index.
   void face_corner() {
     add_row(piece_.vertex_rows, piece_.points.size() / kPointColumns);
     const bool has_uv = scanner_.skip('/') && !scanner_.at_field_end('/');
@@ -107,7 +107,7 @@ class ObjParser {
     if (!has_normal && !piece_.normal_rows.rows.empty()) piece_.normal_rows.rows.push_back(CornerRows::kNone);
   }
 
-  /// The first vt (vn) of a piece tells that the corners before it had none.
+  /// Adds the row of a corner. At the first vt (vn) of a piece, the corners before it get the row -1.
   void add_optional_row(CornerRows& corners, std::size_t element_count) {
     const std::size_t earlier = piece_.vertex_rows.rows.size() - 1;
     if (corners.rows.size() < earlier) corners.rows.resize(earlier, CornerRows::kNone);

@@ -1,4 +1,4 @@
-/// \file What one piece of an OBJ file says, before the pieces know of each other.
+/// \file The content of one piece of an OBJ file, before the pieces are joined.
 #pragma once
 #include <optional>
 #include <string>
@@ -15,11 +15,11 @@ struct CornerRows {
   static constexpr Index kNone = -1;
 
   Buffer<Index> rows;
-  /// Entries of `rows` that count from this piece's first element, since the file counted backwards.
+  /// The entries of `rows` that count from this piece's first element, because the file counts backwards there.
   Buffer<Index> relative;
 };
 
-/// An element with the place that speaks of it.
+/// An element and its position in the text.
 template <typename T>
 struct Tagged {
   T value;
@@ -31,13 +31,14 @@ struct ObjPiece {
   Buffer<double> colors;
   Buffer<double> uvs;
   Buffer<double> normals;
-  /// Numbers after x y z that every vertex of the piece has: 0 none or w, 3 or 4 a colour, nothing without a vertex.
+  /// The number of columns after x y z that every vertex of the piece has: 0 for none or w, 3 or 4 for a colour. Empty
+  /// without vertices.
   std::optional<int> color_columns;
   bool mixed_columns = false;
   Buffer<Index> face_sizes;
   CornerRows vertex_rows;
-  CornerRows uv_rows;      ///< empty where no corner has a vt, else one entry per corner
-  CornerRows normal_rows;  ///< likewise
+  CornerRows uv_rows;      ///< empty if no corner has a vt, otherwise one entry for each corner
+  CornerRows normal_rows;  ///< the same for vn
   std::vector<Group> groups;
   std::vector<std::string> material_libraries;
   std::vector<Tagged<Crease>> creases;
@@ -51,13 +52,13 @@ struct ObjPiece {
 /// Throws Fault.
 void parse_obj(std::string_view text, ObjPiece& piece);
 
-/// Reads what follows the `t`; the scanner stands behind it and is left before the end of the line.
+/// Reads what follows the `t`. The scanner is just after it, and afterwards before the end of the line.
 void parse_obj_tag(Scanner& scanner, ObjPiece& piece);
 
-/// Appends a group; one that held no face is replaced by the next of its keyword.
+/// Appends a group. A group without faces is replaced by the next one of its keyword.
 void add_group(std::vector<Group>& groups, Group group);
 
-/// The line of the piece's face number `face`: where an index out of range is reported.
+/// The line of the piece's face number `face`, for reporting an index out of range.
 const char* find_obj_face(std::string_view text, Index face);
 
 }  // namespace batten::io

@@ -14,7 +14,7 @@ namespace {
 using Pieces = std::vector<ObjPiece>;
 using Texts = std::vector<std::string_view>;
 
-/// How many elements of a list stand before each piece; the last entry is the total.
+/// The number of elements of a list before each piece; the last entry is the total.
 template <typename Count>
 std::vector<Index> first_elements(const Source& source, const Pieces& pieces, const char* elements,
                                   const Count& count) {
@@ -24,7 +24,7 @@ std::vector<Index> first_elements(const Source& source, const Pieces& pieces, co
   return {first.begin(), first.end()};
 }
 
-/// The rows of one list of all pieces, which give up their own.
+/// Joins the rows of one list of all pieces and frees the pieces' own.
 template <typename Matrix>
 Matrix join_values(Pieces& pieces, Buffer<double> ObjPiece::*list, const std::vector<Index>& first, int columns) {
   Matrix values(first.back(), columns);
@@ -35,7 +35,8 @@ Matrix join_values(Pieces& pieces, Buffer<double> ObjPiece::*list, const std::ve
   return values;
 }
 
-/// Makes the rows of one piece count from the file's first element. Returns the first corner out of range, or -1.
+/// Makes the rows of one piece count from the file's first element. Returns the first corner that is out of range, or
+/// -1.
 std::ptrdiff_t resolve_rows(CornerRows& corners, Index first_element, Index element_count, bool optional) {
   constexpr Index kBad = std::numeric_limits<Index>::min();
   for (const Index corner : corners.relative) {
@@ -63,7 +64,7 @@ struct List {
   bool optional;
 };
 
-/// Each piece reports its first line with an index out of range.
+/// Reports for each piece its first line with an index out of range.
 void resolve_corners(const Source& source, const Texts& texts, Pieces& pieces, const std::vector<List>& lists) {
   const auto resolve = [&](std::size_t i) {
     Index first_bad_face = std::numeric_limits<Index>::max();
@@ -99,8 +100,8 @@ void join_vertices(const Source& source, Pieces& pieces, const std::vector<Index
   mesh.attributes.push_back({"color", join_values<Values>(pieces, &ObjPiece::colors, first, columns), {}});
 }
 
-/// Keeps the sharing: corners with the same vt share a row. Rows that no corner names stay, lists that no corner names
-/// go (in a file without faces, a list as long as the vertices belongs to these).
+/// Corners with the same vt share a row in the attribute too. Rows without corners are kept. A list without corners is
+/// dropped, except in a file without faces, where a list as long as the vertices belongs to them.
 void join_attribute(Pieces& pieces, Buffer<double> ObjPiece::*list, CornerRows ObjPiece::*rows,
                     const std::vector<Index>& first, const std::vector<Index>& first_corner, Attribute attribute,
                     Mesh& mesh) {
@@ -125,7 +126,7 @@ void append(std::vector<T>& all, std::vector<T>& part) {
   std::move(part.begin(), part.end(), std::back_inserter(all));
 }
 
-/// The first line whose tag names what does not exist, whatever the order in which the tags are looked at.
+/// Finds the first line whose tag names a missing element, in whatever order the tags are checked.
 class TagCheck {
  public:
   void require(Index element, Index count, const char* elements, const char* where) {
@@ -142,7 +143,7 @@ class TagCheck {
   std::optional<Fault> first_;
 };
 
-/// The later word on the surface counts.
+/// The last choice in the file counts.
 template <typename T>
 void keep_last(std::optional<T>& kept, const std::optional<T>& later) {
   if (later) kept = later;
@@ -212,7 +213,7 @@ Mesh join(const Source& source, const Texts& texts, Pieces& pieces) {
 
 }  // namespace
 
-/// Of several wrong lines the first is reported; indices are looked at when every line could be read.
+/// Reports the first of several wrong lines. Indices are checked after every line has been read.
 Mesh read_obj(const Source& source) {
   try {
     const Texts texts = cut_lines(source.bytes, source.chunk_bytes);

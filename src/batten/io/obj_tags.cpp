@@ -53,7 +53,7 @@ double read_sharpness(Scanner& scanner) {
   return sharpness;
 }
 
-/// One sharpness for all, or one for each.
+/// Reads one sharpness for all, or one for each.
 std::vector<double> read_sharpnesses(Scanner& scanner, std::int64_t given, std::size_t wanted) {
   std::vector<double> sharpness;
   for (std::int64_t i = 0; i < given; ++i) sharpness.push_back(read_sharpness(scanner));
@@ -61,7 +61,7 @@ std::vector<double> read_sharpnesses(Scanner& scanner, std::int64_t given, std::
   return sharpness;
 }
 
-/// Two vertices, or a chain of them.
+/// Reads two vertices, or a chain of them.
 void read_crease(Scanner& scanner, const TagCounts& counts, ObjPiece& piece) {
   const bool right = counts.integers >= 2 && (counts.numbers == 1 || counts.numbers == counts.integers - 1);
   require_counts(scanner, right && counts.words == 0, "crease 2/1/0 VERTEX VERTEX SHARPNESS");
@@ -97,7 +97,7 @@ void read_boundary(Scanner& scanner, const TagCounts& counts, ObjPiece& piece) {
   piece.boundary = kRules[rule];
 }
 
-/// One of two words; "uniform" and "normal" are OpenSubdiv's and RenderMan's names of the plain rule.
+/// Reads one of two words. "uniform" and "normal" are OpenSubdiv's and RenderMan's names of the plain rule.
 bool read_choice(Scanner& scanner, const TagCounts& counts, const char* form, std::string_view plain,
                  std::string_view other) {
   require_counts(scanner, counts.integers == 0 && counts.numbers == 0 && counts.words == 1, form);

@@ -25,7 +25,7 @@ void write_list(OutputFile& file, std::string_view keyword, const CornerList& li
                          [&](TextBuffer& out, std::ptrdiff_t i) { out.put(keyword).put_row(values.row(i)).put('\n'); });
 }
 
-/// A sharpness above what OpenSubdiv takes for infinite is infinite, which no text of a number reads back.
+/// Infinity has no text that reads back. Any sharpness from kInfiniteSharpness on means the same.
 double finite_sharpness(double sharpness) { return std::isinf(sharpness) ? double{kInfiniteSharpness} : sharpness; }
 
 void put_settings(TextBuffer& out, const Mesh& mesh) {
@@ -63,7 +63,7 @@ void write_tags(OutputFile& file, const Mesh& mesh) {
   });
 }
 
-/// Writes the groups that begin at faces up to `face`; returns the next group.
+/// Writes the groups that begin at faces up to `face`. Returns the next group.
 class FaceWriter {
  public:
   explicit FaceWriter(const Mesh& mesh)
@@ -114,7 +114,7 @@ void write_obj(OutputFile& file, const Mesh& mesh) {
   write_list(file, "vn", corner_list(mesh, "normal"));
   write_tags(file, mesh);
   const FaceWriter faces(mesh);
-  // One past the last face, for groups that begin there.
+  // The extra row is for groups that begin after the last face.
   write_rows<TextBuffer>(file, std::ptrdiff_t{mesh.face_count()} + 1,
                          [&](TextBuffer& out, std::ptrdiff_t face) { faces.put(out, static_cast<Index>(face)); });
 }

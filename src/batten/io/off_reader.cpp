@@ -8,16 +8,16 @@ namespace batten::io {
 
 namespace {
 
-/// What the words before the rows promise.
+/// The content of the words before the rows.
 struct OffHeader {
-  bool has_normals = false;  ///< N: nx ny nz behind the coordinates
+  bool has_normals = false;  ///< N: nx ny nz after the coordinates
   bool has_uvs = false;      ///< ST: two texture coordinates at the end of the row
   std::ptrdiff_t vertex_count = 0;
   std::ptrdiff_t face_count = 0;
   std::string_view body;
 };
 
-/// The line on which the next token stands becomes the current one.
+/// Makes the line of the next token the current one.
 void require_line(Scanner& scanner, const char* what) {
   while (!scanner.next_token()) {
     if (scanner.at_end()) scanner.fail_missing(what);
@@ -25,7 +25,7 @@ void require_line(Scanner& scanner, const char* what) {
   }
 }
 
-/// Any order of ST, C and N before OFF. Returns what is left behind OFF: counts may follow without a blank (ModelNet).
+/// Reads ST, C and N in any order before OFF. Returns what follows OFF: counts may follow without a blank (ModelNet).
 std::string_view parse_keyword(const Scanner& scanner, std::string_view word, OffHeader& header) {
   const std::size_t off = word.find("OFF");
   if (off == std::string_view::npos) {
@@ -64,7 +64,7 @@ OffHeader parse_header(std::string_view text) {
   return header;
 }
 
-/// The columns behind the coordinates, as attributes without rows. The first vertex tells for all.
+/// The columns after the coordinates as attributes without rows. The first vertex determines them.
 std::vector<Attribute> find_attributes(const OffHeader& header) {
   std::vector<Attribute> attributes;
   if (header.has_normals) attributes.push_back({"normal", Values(0, 3), {}});
@@ -81,7 +81,7 @@ std::vector<Attribute> find_attributes(const OffHeader& header) {
   return attributes;
 }
 
-/// The size, the vertices, and a colour that is skipped.
+/// Reads the size and the vertices, and skips a colour.
 void read_face(Scanner& scanner, Index vertex_count, FaceList& faces) {
   const std::int64_t size = scanner.integer("number of corners");
   if (size < 3)
@@ -98,7 +98,7 @@ void read_face(Scanner& scanner, Index vertex_count, FaceList& faces) {
   scanner.skip_tokens();
 }
 
-/// Colours come as 0 to 1 or as 0 to 255; the largest number tells.
+/// Colours range from 0 to 1 or from 0 to 255; the largest number decides which.
 void scale_colors(Attribute& attribute) {
   if (attribute.name != "color" || attribute.values.size() == 0 || attribute.values.maxCoeff() <= 1.0) return;
   attribute.values /= 255.0;

@@ -11,7 +11,7 @@ namespace batten::io {
 
 namespace {
 
-/// Calls body with a value of the C++ type.
+/// Calls body with a value of the property's C++ type.
 template <typename Body>
 auto with_type(PlyType type, const Body& body) {
   switch (type) {
@@ -35,7 +35,7 @@ auto with_type(PlyType type, const Body& body) {
   return body(double{});
 }
 
-/// Takes the values of a row from consecutive bytes.
+/// Reads the values of a row from consecutive bytes.
 template <ByteOrder Order>
 struct BinaryValues {
   const char* at;
@@ -70,7 +70,7 @@ struct BinaryValues {
   }
 };
 
-/// A face row that is one list, maybe with scalars around it.
+/// A face row with one list, possibly with scalars before and after it.
 struct FaceLayout {
   std::size_t before;  ///< bytes before the list's size
   std::size_t after;   ///< bytes after the list
@@ -116,7 +116,7 @@ class BinaryReader {
     report_progress(source_.progress, begin + (end - begin) * static_cast<double>(row) / static_cast<double>(count));
   }
 
-  /// What the file cannot hold is never allocated.
+  /// Refuses counts that the file cannot hold before memory is allocated.
   void require_bytes(const PlyElement& element) const {
     const std::size_t row_bytes = element.smallest_row();
     if (row_bytes == 0 || element.count <= static_cast<std::size_t>(end_ - at_) / row_bytes) return;
@@ -125,7 +125,7 @@ class BinaryReader {
              std::to_string(row_bytes) + " bytes or more, but fewer are left; the file is cut short");
   }
 
-  /// Every row has the same size: column by column, a block that fits the cache at a time.
+  /// Reads rows of equal size, column by column, in blocks that fit the cache.
   void read_fixed_vertices(const PlyTargets& targets) {
     const PlyElement& element = *targets.element;
     const std::size_t row_bytes = element.smallest_row();
@@ -183,7 +183,7 @@ class BinaryReader {
     with_type(layout.index_type, [&](auto type) { copy_corners<decltype(type)>(layout, first, targets.vertex_count); });
   }
 
-  /// Walks from list to list, which nothing can do in parallel; moves to the end of the element.
+  /// Walks from list to list, which cannot be done in parallel. Moves to the end of the element.
   template <typename Count>
   void scan_sizes(const FaceLayout& layout, std::size_t face_count) {
     const std::size_t fixed = layout.before + sizeof(Count) + layout.after;
@@ -243,7 +243,7 @@ class BinaryReader {
                    progress_within(source_.progress, 0.7, 1.0));
   }
 
-  /// Rows of any size, one after the other: several lists, or lists at the vertices.
+  /// Reads rows of any size one by one: those with several lists, or with lists at the vertices.
   void read_rows(const PlyTargets& targets) {
     std::vector<FaceList> faces(1);
     BinaryValues<Order> values{at_, end_};

@@ -6,7 +6,7 @@
 
 namespace batten::io {
 
-/// Throws Fault. Counts that the file cannot hold are refused before anything is allocated.
+/// Refuses counts that the file cannot hold before memory is allocated. Throws Fault.
 void read_ply_binary(const Source& source, const PlyHeader& header, std::vector<PlyTargets>& targets, Mesh& mesh);
 
 }  // namespace batten::io

@@ -37,7 +37,7 @@ class HeaderParser {
   }
 
  private:
-  /// True after end_header. Its line ends right behind LF: what follows may be any byte.
+  /// Returns true after end_header. That line ends right after LF, since any byte may follow.
   bool line() {
     if (scanner_.at_end()) scanner_.fail(ErrorCode::BadFile, "the header has no end_header; the file is cut short");
     const std::string_view keyword = scanner_.word();

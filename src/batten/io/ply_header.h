@@ -1,4 +1,4 @@
-/// \file What the head of a PLY file promises about its body.
+/// \file The header of a PLY file.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -14,7 +14,7 @@ enum class PlyEncoding { Text, LittleEndian, BigEndian };
 
 struct PlyProperty {
   std::string name;
-  PlyType type;                       ///< of a list: of its entries
+  PlyType type;                       ///< for a list, the type of its entries
   std::optional<PlyType> count_type;  ///< lists only
 
   bool is_list() const { return count_type.has_value(); }
@@ -25,7 +25,7 @@ struct PlyElement {
   std::uint64_t count = 0;
   std::vector<PlyProperty> properties;
 
-  /// Bytes of a row whose lists are empty.
+  /// The bytes of a row with empty lists.
   std::size_t smallest_row() const;
   bool has_list() const;
 };

@@ -7,10 +7,10 @@ namespace batten::io {
 
 namespace {
 
-/// Takes the values of a row from the tokens of a line.
+/// Reads the values of a row from the tokens of a line.
 struct TextValues {
   Scanner& scanner;
-  bool finite;  ///< coordinates stand in this row
+  bool finite;  ///< true if the row has coordinates
 
   double scalar(const PlyProperty& property) {
     const bool coordinate = finite && (property.name == "x" || property.name == "y" || property.name == "z");
@@ -26,8 +26,8 @@ struct TextValues {
   [[noreturn]] void fail(ErrorCode code, const std::string& message) const { scanner.fail(code, message); }
 };
 
-/// A value takes a digit and a blank at least, so that a promise that the text cannot hold shows before memory is
-/// taken.
+/// Each value takes at least a digit and a blank. Counts that the text cannot hold are therefore refused before memory
+/// is allocated.
 void require_text_size(const Source& source, const PlyHeader& header, const Rows& rows) {
   auto rows_left = static_cast<std::uint64_t>(rows.count);
   auto bytes_left = static_cast<std::uint64_t>(source.bytes.data() + source.bytes.size() - header.body) + 1;
@@ -44,7 +44,7 @@ void require_text_size(const Source& source, const PlyHeader& header, const Rows
   }
 }
 
-/// The elements one after the other, a line per row.
+/// The elements in order, with a line for each row.
 struct ElementRows {
   const PlyTargets* targets;
   std::ptrdiff_t first_row;

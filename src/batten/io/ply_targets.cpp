@@ -7,14 +7,14 @@ namespace batten::io {
 
 namespace {
 
-/// Properties that together make one attribute.
+/// Properties that together form an attribute.
 struct Family {
   const char* attribute;
   std::vector<std::string> properties;
 };
 
 const std::vector<Family>& families() {
-  // The longer colour first: the first family that is complete takes its properties.
+  // The longer colour comes first: the first complete family takes its properties.
   static const std::vector<Family> known = {{"normal", {"nx", "ny", "nz"}},
                                             {"color", {"red", "green", "blue", "alpha"}},
                                             {"color", {"red", "green", "blue"}},
@@ -24,7 +24,7 @@ const std::vector<Family>& families() {
   return known;
 }
 
-/// The number of the scalar property of that name, or -1.
+/// The index of the scalar property of that name, or -1.
 std::ptrdiff_t find_scalar(const PlyElement& element, const std::string& name) {
   const auto found = std::find_if(element.properties.begin(), element.properties.end(),
                                   [&](const PlyProperty& p) { return !p.is_list() && p.name == name; });
@@ -44,13 +44,13 @@ void require_vertex_properties(const std::string& name, const PlyElement& elemen
   require_index_count(name, element.count, "vertices");
 }
 
-/// Colours of integer type have 255 (65535) for full; everything else keeps its values.
+/// Colours of integer type range up to 255 (65535); other values are kept.
 double divisor(const Family& family, const PlyProperty& property) {
   if (std::string(family.attribute) != "color" || !is_integer(property.type)) return 1.0;
   return property.type == PlyType::Uint16 ? 65535.0 : 255.0;
 }
 
-/// Fills an attribute's columns from the properties of those numbers.
+/// Fills the columns of an attribute from the properties with these indices.
 struct Placement {
   std::size_t attribute;
   std::vector<std::ptrdiff_t> properties;
@@ -117,7 +117,7 @@ void allocate_ply_vertices(PlyTargets& targets, Mesh& mesh) {
   }
   for (std::size_t p = 0; p < element.properties.size(); ++p) {
     if (taken[p] || element.properties[p].is_list()) continue;
-    // A lone scalar of that name is no normal, and no writer would take it for one.
+    // A scalar of that name is no normal, and no writer would accept it as one.
     const std::string& name = element.properties[p].name;
     const bool reserved = name == "normal" || name == "color" || name == "uv";
     mesh.attributes.push_back({reserved ? name + "_" : name, Values(rows, 1), {}});

@@ -1,4 +1,4 @@
-/// \file Where the values of a PLY row go in a Mesh, for text and bytes alike.
+/// \file The destination of each value of a PLY row in a Mesh, for text and bytes alike.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace batten::io {
 
-/// The value of row i goes to values[stride * i + offset], divided by `divisor`; nowhere when values is null.
+/// The value of row i goes to values[stride * i + offset], divided by `divisor`. It is skipped if values is null.
 struct PlyColumn {
   double* values = nullptr;
   std::ptrdiff_t offset = 0;
@@ -22,20 +22,20 @@ enum class PlyRole { Vertices, Faces, Skipped };
 struct PlyTargets {
   const PlyElement* element = nullptr;
   PlyRole role = PlyRole::Skipped;
-  std::vector<PlyColumn> columns;  ///< one per property
-  std::size_t face_list = 0;       ///< the property with the vertices of a face
-  Index vertex_count = 0;          ///< of the file
+  std::vector<PlyColumn> columns;  ///< one for each property
+  std::size_t face_list = 0;       ///< the property that holds a face's vertices
+  Index vertex_count = 0;          ///< the file's
 };
 
-/// Throws Error(BadFile) when the header has no vertices, coordinates or corners where they are due, and
-/// Error(TooLarge). Allocates nothing that the counts decide.
+/// Throws Error(BadFile) if the header lacks vertices, coordinates or corners, and Error(TooLarge). Allocates no memory
+/// that depends on the counts.
 std::vector<PlyTargets> find_ply_targets(const std::string& name, const PlyHeader& header);
 
-/// Sizes mesh.points and the attributes for the vertex element, and points the columns there.
+/// Resizes mesh.points and the attributes for the vertex element, and lets the columns point there.
 void allocate_ply_vertices(PlyTargets& targets, Mesh& mesh);
 
-/// One row, value by value. `Values` has scalar(property), coordinate(property), integer(type, what), skip(type, count)
-/// and fail(code, message).
+/// Reads one row, value by value. `RowValues` has scalar(property), coordinate(property), integer(type, what),
+/// skip(type, count) and fail(code, message).
 template <typename RowValues>
 void read_ply_row(RowValues& values, const PlyTargets& targets, std::ptrdiff_t row, FaceList& faces) {
   const std::vector<PlyProperty>& properties = targets.element->properties;

@@ -24,7 +24,7 @@ struct Column {
   std::uint8_t byte(std::ptrdiff_t row) const { return static_cast<std::uint8_t>(std::lround(255.0 * value(row))); }
 };
 
-/// True where every value is k / 255 to the bit, as a colour read from bytes is.
+/// True if every value is exactly k / 255, as in a colour read from bytes.
 bool holds_bytes(const Values& values) {
   const double* data = values.data();
   return parallel_reduce(
@@ -39,7 +39,7 @@ bool holds_bytes(const Values& values) {
       [](bool a, bool b) { return a && b; });
 }
 
-/// The property names of an attribute; PLY has no blanks in names.
+/// The property names of an attribute, without blanks, which PLY does not allow.
 std::vector<std::string> property_names(const Attribute& attribute) {
   if (attribute.name == "normal") return {"nx", "ny", "nz"};
   if (attribute.name == "uv") return {"s", "t"};

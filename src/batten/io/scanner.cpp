@@ -22,7 +22,7 @@ std::string Scanner::rest_of_line() {
       continue;
     }
     first = false;
-    // A name with a return inside could not be written again.
+    // A name with a carriage return inside could not be written again.
     text.push_back(*here_ == '\r' ? ' ' : *here_);
   }
   while (!text.empty() && is_blank(text.back())) text.pop_back();
@@ -42,7 +42,7 @@ void Scanner::skip_line() {
     const char* last = here_ - 1;
     if (last != begin && last[-1] == '\r') --last;
     if (comment || last == begin || last[-1] != '\\') return;
-    // A comment may start anywhere in the line that the backslash would continue.
+    // A comment may start anywhere in a line that ends in a backslash.
     comment = std::find(begin, last, '#') != last;
     if (comment) return;
   }

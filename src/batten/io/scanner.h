@@ -1,4 +1,4 @@
-/// \file One pass over a text, token by token: the only place that knows blanks, comments, continued lines and numbers.
+/// \file One pass over a text, token by token. All rules about blanks, comments, continued lines and numbers are here.
 #pragma once
 #include <fast_float/fast_float.h>
 
@@ -12,12 +12,12 @@
 
 namespace batten::io {
 
-/// A token as a message can show it: short, in quotes, and without what a terminal would obey.
+/// A token as a message can show it: short, in quotes, and without control characters.
 std::string in_quotes(std::string_view token);
 
-/// Tokens are parted by blanks (space, tab, CR, form feed) and, where asked, by one more character. A line ends at LF;
-/// a backslash before LF continues it; a token that starts with '#' begins a comment, which a backslash never continues
-/// (a comment may well end in a Windows path). Every failure throws Fault at the token.
+/// Tokens are separated by blanks (space, tab, CR, form feed) and, if requested, by one more character. A line ends at
+/// LF; a backslash before LF continues it. A token that starts with '#' begins a comment, which a backslash never
+/// continues, since a comment may end in a Windows path. Every failure throws Fault at the token.
 class Scanner {
  public:
   explicit Scanner(std::string_view text, char separator = ' ')
@@ -26,7 +26,7 @@ class Scanner {
   const char* position() const { return here_; }
   bool at_end() const { return here_ == end_; }
 
-  /// Moves to the next token of this line; false where the line ends first.
+  /// Moves to the next token of this line. Returns false if the line ends first.
   bool next_token() {
     for (; here_ != end_; ++here_) {
       if (is_blank(*here_)) continue;
@@ -39,7 +39,7 @@ class Scanner {
     return false;
   }
 
-  /// The token at hand, or an empty one at the end of the line.
+  /// The current token, empty at the end of the line.
   std::string_view word() {
     const bool stands = next_token();
     const char* begin = here_;
@@ -47,7 +47,7 @@ class Scanner {
     return {begin, static_cast<std::size_t>(here_ - begin)};
   }
 
-  /// A double, bit for bit what the decimal text means (fast_float), a leading '+', "nan" and "inf" included.
+  /// Reads a double, exactly rounded (fast_float). A leading '+', "nan" and "inf" are accepted.
   double number(const char* what) {
     require_token(what);
     const char* begin = here_;
@@ -59,7 +59,7 @@ class Scanner {
     return value;
   }
 
-  /// A double that is neither NaN nor infinite.
+  /// Reads a double that is neither NaN nor infinite.
   double coordinate(const char* what) {
     if (!next_token()) fail_missing(what);
     const char* token = here_;
@@ -68,7 +68,7 @@ class Scanner {
     return value;
   }
 
-  /// Decimal digits with an optional sign. `stop` may follow at once, besides what ends a token.
+  /// Reads decimal digits with an optional sign. Besides the end of the token, `stop` ends them.
   std::int64_t integer(const char* what, char stop = '\n') {
     require_token(what);
     const char* at = here_;
@@ -84,34 +84,34 @@ class Scanner {
     return negative ? -value : value;
   }
 
-  /// Moves past `expected` if it stands here.
+  /// Moves past `expected` if it is the next character.
   bool skip(char expected) {
     if (here_ == end_ || *here_ != expected) return false;
     ++here_;
     return true;
   }
 
-  /// True where nothing stands before the next blank or `separator`.
+  /// True if the next character is a blank or `separator`.
   bool at_field_end(char separator) const { return ends_token(here_) || *here_ == separator; }
 
-  /// What is left of the line, continued lines joined, without the blanks around it.
+  /// The rest of the line without surrounding blanks, continued lines joined.
   std::string rest_of_line();
 
-  /// Moves to the end of the line as a comment has it: a backslash continues nothing.
+  /// Moves to the end of the line as a comment does: a backslash continues nothing.
   void skip_comment() {
     while (here_ != end_ && *here_ != '\n') ++here_;
   }
 
-  /// Moves to the next line, whatever is left of this one.
+  /// Moves to the next line and skips the rest of this one.
   void skip_line();
 
-  /// Moves to the end of the line, over all its tokens.
+  /// Moves to the end of the line and skips its tokens.
   void skip_tokens() {
     while (!word().empty()) {
     }
   }
 
-  /// Moves to the next line; fails when a token is left.
+  /// Moves to the next line. Throws if a token is left.
   void finish_line() {
     if (next_token()) fail_token("the end of the line", "after the last value");
     skip_line();

@@ -20,7 +20,7 @@ namespace {
   throw Error(ErrorCode::FileNotReadable, name + ": cannot be read: " + why);
 }
 
-/// Closes on every way out.
+/// Closes the descriptor in its destructor.
 struct Descriptor {
   int number;
   bool owned;
@@ -29,7 +29,7 @@ struct Descriptor {
   }
 };
 
-/// As many bytes as there are, in pieces that threads share.
+/// Reads as many bytes as there are, in pieces that threads share.
 Buffer<char> read_file(int descriptor, const std::string& name, std::size_t size, const Progress& progress) {
   constexpr std::ptrdiff_t kPiece = std::ptrdiff_t{1} << 20;
   Buffer<char> bytes(size);
@@ -46,7 +46,7 @@ Buffer<char> read_file(int descriptor, const std::string& name, std::size_t size
   return bytes;
 }
 
-/// Until the end comes. Another program may take its time to write it: the caller is asked ten times a second.
+/// Reads until the end. Since another program may write slowly, the callback is called ten times a second.
 Buffer<char> read_stream(int descriptor, const std::string& name, const Progress& progress) {
   constexpr std::size_t kFirst = std::size_t{1} << 16;
   Buffer<char> bytes(kFirst);
@@ -94,7 +94,7 @@ InputFile::InputFile(const std::string& path, const Progress& progress) {
   struct stat status {};
   if (::fstat(file.number, &status) != 0) throw_unreadable(name, std::strerror(errno));
   if (S_ISDIR(status.st_mode)) throw_unreadable(name, "it is a folder; name a file in it");
-  // Files that the system makes up (/proc) have no size.
+  // Files that the system generates (/proc) have size 0.
   const bool known = S_ISREG(status.st_mode) && !standard && status.st_size > 0;
   bytes_ = known ? read_file(file.number, name, static_cast<std::size_t>(status.st_size), progress)
                  : read_stream(file.number, name, progress);

@@ -1,4 +1,4 @@
-/// \file The bytes of a file while a reader works on them, and how a reader says where it gave up.
+/// \file The bytes of a file during reading, and how a reader reports where it failed.
 #pragma once
 #include <cstddef>
 #include <memory>
@@ -14,15 +14,15 @@ namespace batten::io {
 /// Text is cut into pieces of about this size, which are parsed in parallel.
 inline constexpr std::size_t kChunkBytes = std::size_t{1} << 20;
 
-/// What a reader reads. `chunk_bytes` changes no result; tests make it tiny.
+/// The input of a reader. `chunk_bytes` changes no result; tests make it tiny.
 struct Source {
   std::string name;        ///< for messages
   std::string_view bytes;  ///< the whole file
   std::size_t chunk_bytes = kChunkBytes;
-  Progress progress = {};  ///< of the reading of these bytes
+  Progress progress = {};  ///< reports the reading of these bytes
 };
 
-/// Thrown inside the readers only: what is wrong, and the byte where. The format turns it into an Error.
+/// An error at a byte of the source, thrown and caught inside the readers. Each format turns it into an Error.
 struct Fault {
   const char* where;
   ErrorCode code;
@@ -35,12 +35,12 @@ struct Fault {
 /// Throws Error "NAME: message (byte N)" for a fault in binary data.
 [[noreturn]] void throw_at_byte(const Source& source, const Fault& fault);
 
-/// Throws Error(TooLarge) when `count` elements cannot be told apart by an Index.
+/// Throws Error(TooLarge) if an Index cannot number `count` elements.
 void require_index_count(const std::string& name, std::size_t count, const char* elements);
 
-/// A file in memory. It is read, not mapped: a mapped file that another program cuts short meanwhile would end the
-/// process, and the copy costs a tenth of the fastest parser's time. "-" is standard input.
-/// Throws Error(FileNotReadable, Cancelled), and Error(BadFile) for a file without a single byte.
+/// A file in memory. The file is read and not mapped: if another program shortened a mapped file, the process would be
+/// killed, and the copy costs only a tenth of the fastest parser's time. "-" is standard input.
+/// Throws Error(FileNotReadable, Cancelled), and Error(BadFile) for an empty file.
 class InputFile {
  public:
   explicit InputFile(const std::string& path, const Progress& progress = {});

@@ -16,7 +16,7 @@ constexpr std::size_t kHeaderBytes = 84;
 constexpr std::size_t kTriangleBytes = 50;
 constexpr std::size_t kCornersBetweenReports = std::size_t{1} << 17;
 
-/// Equal coordinates become one vertex, numbered by first appearance. A hash table with open addressing.
+/// Makes equal coordinates one vertex, numbered by first appearance, with a hash table with open addressing.
 class VertexWelder {
  public:
   explicit VertexWelder(const std::string& name) : name_(name), slots_(kFirstSlots, kFree) {}
@@ -50,7 +50,7 @@ class VertexWelder {
     return mixed;
   }
 
-  /// The slot of the vertex, or the free one where it belongs.
+  /// The slot of the vertex, or the free one for it.
   std::size_t find(const double* point) const {
     const std::size_t mask = slots_.size() - 1;
     std::size_t slot = hash(point) & mask;
@@ -87,7 +87,7 @@ std::uint64_t promised_bytes(std::string_view bytes) {
   return kHeaderBytes + kTriangleBytes * std::uint64_t{load<std::uint32_t, ByteOrder::Little>(bytes.data() + 80)};
 }
 
-/// A normal, three points, and two bytes without a meaning.
+/// Reads triangles of a normal, three points and two unused bytes.
 Mesh read_binary(const Source& source) {
   const std::uint64_t promised = promised_bytes(source.bytes);
   if (promised != source.bytes.size()) {
@@ -197,7 +197,7 @@ class TextParser {
   Index corners_ = 0;
 };
 
-/// Binary files may begin with "solid" too, so that the size decides first.
+/// Binary files may begin with "solid" too, so the size decides first.
 bool is_binary(std::string_view bytes) {
   if (bytes.size() >= kHeaderBytes && promised_bytes(bytes) == bytes.size()) return true;
   Scanner scanner(bytes);

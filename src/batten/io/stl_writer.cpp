@@ -25,7 +25,7 @@ void for_each_triangle(const Mesh& mesh, Index face, const Body& body) {
 }
 
 void write_binary(OutputFile& file, const Mesh& mesh) {
-  // "solid" at the beginning would look like text.
+  // A header that begins with "solid" would look like text.
   std::string header = "binary STL, written by Batten";
   header.resize(80, ' ');
   const std::size_t triangles = mesh.face_vertices.size() - 2 * static_cast<std::size_t>(mesh.face_count());

@@ -1,4 +1,4 @@
-/// \file Text out: numbers that read back bit for bit, formatted in parallel.
+/// \file Text output: numbers that read back bit for bit, formatted in parallel.
 #pragma once
 #include <algorithm>
 #include <charconv>
@@ -15,14 +15,14 @@
 
 namespace batten::io {
 
-/// Bytes that grow, to be written in one piece.
+/// A growing sequence of bytes that is written as one block.
 class OutputBuffer {
  public:
   void clear() { size_ = 0; }
   std::string_view text() const { return {buffer_.data(), size_}; }
 
  protected:
-  /// Where `count` bytes can be put, before grow() says how many were.
+  /// Space for `count` bytes. grow() then says how many were used.
   char* room(std::size_t count) {
     if (size_ + count >= buffer_.size()) buffer_.resize(std::max(size_ + count, 2 * buffer_.size()) + kFirst);
     return buffer_.data() + size_;
@@ -36,7 +36,7 @@ class OutputBuffer {
   std::size_t size_ = 0;
 };
 
-/// Text without a zero at the end.
+/// A text without a terminating zero.
 class TextBuffer : public OutputBuffer {
  public:
   TextBuffer& put(char c) {
@@ -54,7 +54,8 @@ class TextBuffer : public OutputBuffer {
     grow(static_cast<std::size_t>(std::to_chars(begin, begin + kLongestNumber, value).ptr - begin));
     return *this;
   }
-  /// The shortest digits that read back to the same double; 17 digits where the library has no such function.
+  /// Appends the fewest digits that read back to the same double, or 17 digits if the standard library has no such
+  /// function.
   TextBuffer& put(double value) {
     char* begin = room(kLongestNumber);
 #ifdef __cpp_lib_to_chars
@@ -64,7 +65,7 @@ class TextBuffer : public OutputBuffer {
 #endif
     return *this;
   }
-  /// Each number of an Eigen row, after a blank.
+  /// Appends each number of an Eigen row after a blank.
   template <typename Row>
   TextBuffer& put_row(const Row& row) {
     for (Eigen::Index i = 0; i < row.size(); ++i) put(' ').put(row[i]);
@@ -76,7 +77,7 @@ class TextBuffer : public OutputBuffer {
 };
 
 /// Calls body(output, row) for each row of [0, count), blocks of rows in parallel, and writes the outputs in order.
-/// `Output` has clear() and text(). Memory: a few megabytes, whatever the count (but for very long rows).
+/// `Output` has clear() and text(). Memory: a few megabytes for any count (more for very long rows).
 template <typename Output, typename Body>
 void write_rows(OutputFile& file, std::ptrdiff_t count, const Body& body) {
   constexpr std::ptrdiff_t kBlock = 4096;
@@ -95,7 +96,7 @@ void write_rows(OutputFile& file, std::ptrdiff_t count, const Body& body) {
   }
 }
 
-/// A line per face: its size, and its vertices counted from 0 (OFF and PLY).
+/// Writes a line for each face: its size and its vertices, counted from 0 (OFF and PLY).
 inline void write_face_rows(OutputFile& file, const Mesh& mesh) {
   write_rows<TextBuffer>(file, mesh.face_count(), [&](TextBuffer& out, std::ptrdiff_t row) {
     const auto face = static_cast<Index>(row);

@@ -8,11 +8,11 @@
 
 namespace batten::io {
 
-/// A name that USD allows (letters, digits, underscores; no digit first) and that is not in `taken`, made of any text;
-/// put into `taken`.
+/// A name that USD allows (letters, digits, underscores; no digit first) and that is not in `taken`, made from any
+/// text. It is added to `taken`.
 std::string usda_identifier(const std::string& text, std::set<std::string>& taken);
 
-/// `indent type name = ["value"]`, one statement a call.
+/// Writes statements `indent type name = ["value"]`, one for each call.
 class UsdaWriter {
  public:
   explicit UsdaWriter(OutputFile& file) : file_(file) {}
@@ -28,8 +28,8 @@ class UsdaWriter {
     line("}");
   }
 
-  /// put(text, i) for i in [0, count), with commas; nothing for an empty array. `metadata`: empty, or what comes in
-  /// brackets after it.
+  /// Writes an array of put(text, i) for i in [0, count), separated by commas; nothing for an empty array. `metadata`
+  /// is empty or what follows in brackets.
   template <typename Put>
   void array(const std::string& declaration, std::ptrdiff_t count, const Put& put, const std::string& metadata = "") {
     if (count == 0) return;
@@ -45,7 +45,7 @@ class UsdaWriter {
     file_.write("] (\n" + indent_ + "    " + metadata + "\n" + indent_ + ")\n");
   }
 
-  /// "(x, y, z)", or the number alone.
+  /// Appends "(x, y, z)", or the number alone.
   template <typename Row>
   static void put_tuple(TextBuffer& out, const Row& row) {
     if (row.size() == 1) {

@@ -13,8 +13,8 @@ namespace batten::io {
 
 namespace {
 
-/// Normals, and no word on a subdivision surface: these are polygons, to be drawn as they are. So are the Butterflies'
-/// meshes, whose schemes USD does not know.
+/// True for polygons that are drawn as they are: a mesh with normals and without any choice about a subdivision
+/// surface, and a mesh of the Butterflies, which USD does not know.
 bool is_polygonal(const Mesh& mesh) {
   if (mesh.scheme && is_interpolating(*mesh.scheme)) return true;
   const bool has_word = mesh.scheme || mesh.boundary || mesh.crease_method || mesh.triangle_rule ||
@@ -22,7 +22,7 @@ bool is_polygonal(const Mesh& mesh) {
   return !has_word && corner_list(mesh, "normal").attribute != nullptr;
 }
 
-/// USD's surfaces have OpenSubdiv's default creases only; Chaikin's differ where sharpness fades.
+/// USD's surfaces have OpenSubdiv's default creases only. Chaikin's creases differ where sharpness fades.
 void require_uniform_creases(const std::string& name, const Mesh& mesh) {
   if (mesh.crease_method != CreaseMethod::Chaikin) return;
   const bool fades = std::any_of(mesh.creases.begin(), mesh.creases.end(), [](const Crease& crease) {
@@ -167,7 +167,8 @@ class UsdaMesh {
     }
   }
 
-  /// Columns [first, first + count) of an attribute. A corner without a row gets one of zeros, added behind.
+  /// Writes the columns [first, first + count) of an attribute. A corner without a row gets a row of zeros, added at
+  /// the end.
   void write_primvar(const std::string& declaration, const Attribute& attribute, Eigen::Index first,
                      Eigen::Index count) {
     const auto rows = static_cast<std::ptrdiff_t>(attribute.values.rows());
@@ -191,7 +192,7 @@ class UsdaMesh {
         [&](TextBuffer& out, std::ptrdiff_t i) { out.put(corners[i] < 0 ? static_cast<Index>(rows) : corners[i]); });
   }
 
-  /// The materials' faces; which material it is, is for the program that binds them.
+  /// Writes the faces of each material. The program that reads the file binds the materials.
   void write_materials() {
     std::set<std::string> taken;
     for (const FaceSet& set : faces_by_material(mesh_)) {

@@ -10,7 +10,7 @@ namespace batten::io {
 
 namespace {
 
-/// Throws Errors that begin with the file's name.
+/// Throws Errors whose messages begin with the file's name.
 struct Checker {
   const std::string& name;
   const Mesh& mesh;

@@ -1,4 +1,4 @@
-/// \file What a mesh must be to be written: a writer never makes a file that no reader takes.
+/// \file Checks before writing, so that every written file can be read.
 #pragma once
 #include <string>
 
@@ -6,16 +6,16 @@
 
 namespace batten::io {
 
-/// Throws Error(NotFinite) for a coordinate or a sharpness, Error(BadShape) for offsets and attributes that do not fit,
-/// Error(IndexOutOfRange), Error(DegenerateFace) for a face of fewer than three corners, Error(BadArgument) for a name
-/// with a line end. `name` is the file's.
+/// `name` is the file's. Throws Error(NotFinite) for a coordinate or a sharpness, Error(BadShape) for offsets and
+/// attributes that do not fit, Error(IndexOutOfRange), Error(DegenerateFace) for a face of fewer than three corners,
+/// Error(BadArgument) for a name with a line end.
 void require_writable(const std::string& name, const Mesh& mesh);
 
-/// The attribute of that name at the vertices (at the corners), or null.
+/// The attribute of that name at the vertices or at the corners, or null.
 const Attribute* vertex_attribute(const Mesh& mesh, const std::string& attribute);
 const Attribute* corner_attribute(const Mesh& mesh, const std::string& attribute);
 
-/// An attribute as the corners see it: with corner rows of its own, or its vertices' rows.
+/// An attribute as seen from the corners: with its own corner rows, or with its vertices' rows.
 struct CornerList {
   const Attribute* attribute;
 
@@ -25,10 +25,10 @@ struct CornerList {
     return attribute->per_corner() ? attribute->corner_rows[corner] : mesh.face_vertices[corner];
   }
 };
-/// The attribute of that name, the corners' before the vertices'.
+/// The attribute of that name; one at the corners takes precedence over one at the vertices.
 CornerList corner_list(const Mesh& mesh, const std::string& attribute);
 
-/// Throws Error(NotFinite) where a value of the list is not finite.
+/// Throws Error(NotFinite) if a value of the list is not finite.
 void require_finite(const std::string& name, const CornerList& list);
 
 }  // namespace batten::io

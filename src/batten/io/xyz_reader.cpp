@@ -13,14 +13,14 @@ std::ptrdiff_t count_tokens(Scanner& scanner) {
   return count;
 }
 
-/// The first row tells for all.
+/// The first row determines the number of columns.
 std::ptrdiff_t count_columns(std::string_view text) {
   Scanner scanner(text, kSeparator);
   while (!scanner.next_token()) scanner.skip_line();
   return count_tokens(scanner);
 }
 
-/// Finds the line for the message: some row is shorter than the first.
+/// Finds the line to report after a row turned out to be shorter than the first.
 [[noreturn]] void fail_ragged(const Source& source, const Rows& rows, std::ptrdiff_t columns) {
   const auto check = [&](Scanner& scanner, std::ptrdiff_t /*row*/, std::size_t /*chunk*/) {
     const Scanner line = scanner;
@@ -37,7 +37,8 @@ Mesh read_rows(const Source& source) {
     throw Error(ErrorCode::BadFile, source.name + ": no points (`x y z`) in it; is this an XYZ file?");
   require_index_count(source.name, static_cast<std::size_t>(rows.count), "points");
   const std::ptrdiff_t columns = count_columns(source.bytes);
-  // A number takes a digit and a blank at least: what the text cannot hold is never allocated.
+  // Each number takes at least a digit and a blank. Counts that the text cannot hold are refused before memory is
+  // allocated.
   if (columns > static_cast<std::ptrdiff_t>(source.bytes.size() + 1) / 2 / rows.count)
     fail_ragged(source, rows, columns);
   Mesh mesh;

@@ -1,4 +1,4 @@
-/// \file Limit normals of the Butterflies on one side of a vertex, of any connectivity that their rules walk over
+/// \file Limit normals of the Butterflies on one side of a vertex, for any connectivity that their rules can walk
 /// (refine/butterfly_rules.h).
 #pragma once
 #include <Eigen/Geometry>
@@ -7,8 +7,8 @@
 
 namespace batten {
 
-/// Outgoing half-edges of a vertex, counter-clockwise: of all its triangles where it is smooth, those of a dart from
-/// its sharp edge on, else those of the side between two sharp edges.
+/// One side of a vertex as outgoing half-edges, counter-clockwise. A smooth vertex has one side with all its triangles,
+/// a dart one that starts at its sharp edge, and any other vertex one between each two neighbouring sharp edges.
 template <typename Walk>
 struct ButterflySide {
   ButterflyVertex kind;
@@ -20,11 +20,11 @@ struct ButterflySide {
     if (kind == ButterflyVertex::Curve) return ButterflyFan::Curve;
     return kind == ButterflyVertex::Dart ? ButterflyFan::Dart : ButterflyFan::Closed;
   }
-  /// Corners are cones; two triangles that share two edges have no tangent plane.
+  /// A corner is a cone, and two triangles that share two edges have no tangent plane.
   bool has_masks() const { return kind != ButterflyVertex::Corner && !(closed() && triangles() < 3); }
 };
 
-/// The side of h's origin that has h.
+/// The side of h's origin to which h belongs.
 template <typename Walk>
 ButterflySide<Walk> side_of(const Walk& walk, typename Walk::HalfEdge h) {
   ButterflySide<Walk> side{walk.kind(walk.origin(h)), {}};
@@ -44,14 +44,14 @@ ButterflySide<Walk> side_of(const Walk& walk, typename Walk::HalfEdge h) {
   return side;
 }
 
-/// The unit normal, zero where there is none. point(vertex): the position of a vertex of the walk.
+/// The unit normal, or zero where there is none. point(vertex) returns the position of a vertex of the walk.
 template <typename Walk, typename Point>
 class ButterflyNormal {
  public:
   ButterflyNormal(const Walk& walk, const ButterflyMasks& masks, const Point& point)
       : walk_(walk), masks_(masks), rules_(walk, masks), point_(point) {}
 
-  /// tangents: of the side's shape, or null where it has no masks.
+  /// tangents: the masks for the side's shape, or null if it has none.
   Eigen::Vector3d operator()(const ButterflySide<Walk>& side, const ButterflyTangentMasks* tangents) const {
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     if (tangents != nullptr) {
@@ -67,7 +67,7 @@ class ButterflyNormal {
 
  private:
   using HalfEdge = typename Walk::HalfEdge;
-  /// The sine below which two tangents are one: where Butterfly is not smooth both masks are its first eigenvector.
+  /// Tangents are parallel below this sine. Where Butterfly is not smooth, both masks are the first eigenvector.
   static constexpr double kParallel = 1e-9;
 
   Eigen::Vector3d new_point(const HalfEdge& half_edge) const {
@@ -90,7 +90,7 @@ class ButterflyNormal {
     return sum;
   }
 
-  /// One step on, e_j is the new point of the edge and d_j the neighbour that e_j was.
+  /// After one more step, e_j is the new point of the edge and d_j is the old neighbour.
   template <typename Vertex>
   void add_edge(const TwoRingMask& mask, std::size_t j, const HalfEdge& half_edge, const Vertex& neighbour,
                 Eigen::Vector3d& sum) const {
@@ -98,7 +98,8 @@ class ButterflyNormal {
     if (!mask.beyond.empty() && mask.beyond[j] != 0.0) sum += mask.beyond[j] * point_(neighbour);
   }
 
-  /// Every edge at a corner is a curve that ends there: the cone of their tangents, its triangles weighted by area.
+  /// Every edge at a corner is a curve that ends there. The normal is that of the cone of their tangents, its triangles
+  /// weighted by area.
   Eigen::Vector3d cone_normal(const ButterflySide<Walk>& side) const {
     const double after = 2.0 * masks_.curve_end().after;
     const Eigen::Vector3d tip = point_(walk_.origin(side.half_edges.front()));

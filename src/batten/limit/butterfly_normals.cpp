@@ -9,7 +9,7 @@ namespace batten {
 
 namespace {
 
-/// Calls visit(side) for each side of a vertex that has faces, the first that its fan begins with first.
+/// Calls visit(side) for each side of a vertex that has faces. The side at which the vertex's fan starts comes first.
 template <typename Visit>
 void for_each_side(const Topology& topology, const TopologyWalk& walk, Index vertex, const Visit& visit) {
   bool any = false;
@@ -62,7 +62,7 @@ class Writer {
 
   Eigen::Vector3d point(Index vertex) const { return points_.row(vertex).transpose(); }
 
-  /// The two rings as they are, where all neighbours are regular: one more step would change nothing.
+  /// Uses the two rings as they are. Where all neighbours are regular, one more step would not change the result.
   bool write_among_regular(Index vertex) const {
     bool regular = true;
     topology_.for_each_outgoing(

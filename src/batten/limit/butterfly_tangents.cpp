@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// Two rings around a vertex whose neighbours are all regular, and what one step makes of them.
+/// Two rings around a vertex whose neighbours are all regular, and the matrix S of one step.
 class TwoRings {
  public:
   TwoRings(const Scheme& scheme, ButterflyFan fan, int triangles)
@@ -84,7 +84,8 @@ class TwoRings {
   std::vector<ButterflyPoint> points_;
 };
 
-/// Iterates y = S^T y from `start` until its direction stays; project() keeps rounding out of other eigenspaces.
+/// Iterates y = S^T y from `start` until its direction is stationary. project() removes rounding errors in other
+/// eigenspaces.
 template <typename Project>
 TwoRingMask left_eigenvector(const TwoRings& rings, std::vector<double> start, const Project& project) {
   constexpr int kMost = 2000;
@@ -107,7 +108,7 @@ TwoRingMask left_eigenvector(const TwoRings& rings, std::vector<double> start, c
   return rings.mask(y);
 }
 
-/// cos or sin around the vertex; under Dart, where there is no such symmetry, the start only.
+/// cos or sin around the vertex. A dart has no such symmetry; there it is the start of the iteration only.
 std::vector<double> wave(const TwoRings& rings, double phase, const std::array<double, 3>& amplitudes) {
   std::vector<double> y(static_cast<std::size_t>(rings.size()), 0.0);
   const double theta = 2.0 * kPi / rings.triangles();
@@ -139,7 +140,7 @@ ButterflyTangentMasks closed_tangents(const TwoRings& rings) {
   return {closed_tangent(rings, 0.0), closed_tangent(rings, 0.5 * kPi)};
 }
 
-/// Both have the eigenvalue 1/2, so any two starts on different lines will do; their turning sense stays.
+/// Both tangents have the eigenvalue 1/2, so any two independent starts are enough; their orientation is preserved.
 ButterflyTangentMasks dart_tangents(const TwoRings& rings) {
   const auto keep = [](std::vector<double>& y) {
     double sum = 0.0;
@@ -161,7 +162,7 @@ TwoRingMask along_curve(int edges) {
   return mask;
 }
 
-/// Across the curve, by the mirror symmetry of the fan.
+/// The tangent across the curve. The fan's mirror symmetry separates it from the tangent along the curve.
 TwoRingMask across_curve(const TwoRings& rings) {
   const int k = rings.triangles();
   std::vector<double> start(static_cast<std::size_t>(rings.size()), 0.0);
@@ -180,8 +181,9 @@ TwoRingMask across_curve(const TwoRings& rings) {
   });
 }
 
-/// The triangle shrinks to the curve faster than it does itself, and the plane beside it has no limit: second
-/// differences of the four-point scheme turn, ever slower. So the plane of the curve and the next point at this level.
+/// The triangle shrinks towards the curve faster than along it, and the plane beside it has no limit: second
+/// differences of the four-point scheme keep turning, ever more slowly. The mask therefore spans the plane of the curve
+/// and the next point at this level.
 TwoRingMask across_single_triangle() { return {-1.0, {0.0, 0.0}, {}, {1.0}}; }
 
 ButterflyTangentMasks make_masks(const Scheme& scheme, ButterflyFan fan, int k) {

@@ -1,8 +1,9 @@
 /// \file Limit tangents of the Butterflies, as weights on two rings around a vertex.
 ///
-/// Around a vertex whose neighbours are regular one step of refinement takes the two rings to those of the next level,
-/// by a fixed matrix S. Limit tangents are its left eigenvectors (docs/mathematics.md, Butterfly): in closed form where Modified Butterfly has
-/// one, else by iterating y = S^T y, with the matrix made by the rules themselves.
+/// Around a vertex whose neighbours are regular, one step of refinement takes the two rings to those of the next level
+/// by a fixed matrix S. The limit tangents are left eigenvectors of S (docs/mathematics.md, Butterfly). Modified
+/// Butterfly has closed forms for most vertices; the others are found by iterating y = S^T y, where the refinement
+/// rules give S.
 #pragma once
 #include <map>
 #include <vector>
@@ -11,10 +12,10 @@
 
 namespace batten {
 
-/// What lies around a vertex, or between two sharp edges there.
+/// The part of a vertex's surroundings that a mask covers.
 enum class ButterflyFan {
-  Closed,  ///< all around a smooth vertex
-  Dart,    ///< all around a dart; edge 0 is its sharp edge
+  Closed,  ///< all triangles around a smooth vertex
+  Dart,    ///< all triangles around a dart; edge 0 is its sharp edge
   Curve    ///< one side of a boundary or crease
 };
 
@@ -33,15 +34,15 @@ struct ButterflyTangentMasks {
   TwoRingMask second;
 };
 
-/// The masks of one scheme, each made when first asked for.
+/// The masks of one scheme. Each is computed when it is first requested.
 class ButterflyTangents {
  public:
   explicit ButterflyTangents(const Scheme& scheme) : scheme_(scheme) {}
 
-  /// triangles: 3 or more for a closed fan or a dart, else 1 or more. O(triangles) for a closed form, a few hundred
-  /// times that otherwise.
+  /// triangles: at least 3 for a closed fan or a dart, at least 1 otherwise. O(triangles) for a closed form, a few
+  /// hundred times that otherwise.
   const ButterflyTangentMasks& make(ButterflyFan fan, int triangles);
-  /// What make() has made.
+  /// A mask that make() has computed.
   const ButterflyTangentMasks& at(ButterflyFan fan, int triangles) const { return masks_.at({fan, triangles}); }
 
  private:

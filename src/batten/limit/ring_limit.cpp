@@ -16,7 +16,7 @@ RingMask zero_mask(const RingRules& rules) {
 int next_edge(const RingRules& rules, int j) { return j + 1 == rules.edge_count() ? 0 : j + 1; }
 int previous_edge(const RingRules& rules, int j) { return j == 0 ? rules.edge_count() - 1 : j - 1; }
 
-/// Moves weights on centroids to the quad: c_j = (v + e_j + e_{j+1} + f_j)/4.
+/// Moves weights of centroids to the corners of the quad: c_j = (v + e_j + e_{j+1} + f_j)/4.
 void spread_centroids(const RingRules& rules, const std::vector<double>& centroids, RingMask& mask) {
   for (int j = 0; j < rules.face_count(); ++j) {
     const double quarter = 0.25 * centroids[j];
@@ -27,7 +27,7 @@ void spread_centroids(const RingRules& rules, const std::vector<double>& centroi
   }
 }
 
-/// Weight of the midpoint in the child of edge j.
+/// The weight of the midpoint in the new point of edge j.
 double sharp_weight(const RingRules& rules, SemiSharpEdges around, int j) {
   const float sharpness = rules.sharpness[j];
   if (!is_sharp(sharpness)) return 0.0;
@@ -79,7 +79,7 @@ void pull_back_vertex(const RingRules& rules, double weight, RingMask& mask, std
   mask.vertex += weight * (blend.crease * kCreaseVertex + blend.corner);
 }
 
-/// The mask on this ring that gives what `child` gives on the refined ring.
+/// The mask on this ring that has the same value as `child` on the refined ring.
 RingMask pull_back(const RingRules& rules, const RingMask& child) {
   RingMask mask = zero_mask(rules);
   std::vector<double> centroids = child.faces;  // a face point is the face's centroid
@@ -89,7 +89,7 @@ RingMask pull_back(const RingRules& rules, const RingMask& child) {
   return mask;
 }
 
-/// The rules one level down: tags fade, all faces are quads.
+/// The rules one level down: tags are one less, and all faces are quads.
 RingRules child_rules(const RingRules& rules) {
   RingRules child = rules;
   child.alpha = 0.0;
@@ -110,7 +110,7 @@ bool is_stationary(const RingRules& rules) {
   return !fades;
 }
 
-/// The levels until nothing fades any more; the last one is stationary.
+/// The rules of each level until all sharpness is 0 or infinite; the last ones are stationary.
 std::vector<RingRules> levels_of(const RingRules& rules) {
   std::vector<RingRules> levels{rules};
   while (!is_stationary(levels.back())) levels.push_back(child_rules(levels.back()));
@@ -149,15 +149,15 @@ double sum_of(const RingMask& mask) {
   return sum;
 }
 
-/// mask <- (mask - shift other) scale
+/// Sets mask to (mask - shift other) scale.
 void combine(RingMask& mask, double shift, const RingMask& other, double scale) {
   mask.vertex = (mask.vertex - shift * other.vertex) * scale;
   for (std::size_t j = 0; j < mask.edges.size(); ++j) mask.edges[j] = (mask.edges[j] - shift * other.edges[j]) * scale;
   for (std::size_t j = 0; j < mask.faces.size(); ++j) mask.faces[j] = (mask.faces[j] - shift * other.faces[j]) * scale;
 }
 
-/// The left eigenvector of eigenvalue 1: the smooth mask pulled back until it stands still. The other eigenvalues are
-/// at most about 0.66, so this takes some 80 steps.
+/// The left eigenvector of eigenvalue 1, found by pulling the smooth mask back until it is stationary. The other
+/// eigenvalues are at most about 0.66, so this takes about 80 steps.
 RingMask dart_position(const RingRules& rules) {
   RingMask mask = smooth_position(rules);
   for (int step = 0; step < kMostFixedPointSteps; ++step) {
@@ -193,8 +193,8 @@ RingMask stationary_position(const RingRules& rules, LimitMasks choice) {
   return mask;
 }
 
-/// Averages a mask with its mirror image in the edge `crease`: rounding must not let in the odd eigenvector, which
-/// shrinks more slowly than the even one.
+/// Averages a mask with its mirror image in the edge `crease`. This removes the odd eigenvector, which rounding
+/// introduces and which shrinks more slowly than the even one.
 void make_even(const RingRules& rules, int crease, RingMask& mask) {
   const int n = rules.edge_count();
   const RingMask before = mask;
@@ -204,8 +204,8 @@ void make_even(const RingRules& rules, int crease, RingMask& mask) {
   }
 }
 
-/// The even eigenvector beside a dart's crease, by power iteration with the constants deflated; the odd one is the
-/// smooth sine mask, which the crease does not touch.
+/// The even eigenvector beside a dart's crease is found by power iteration with the constants deflated. The odd one is
+/// the smooth sine mask, on which the crease does not act.
 TangentMasks dart_tangents(const RingRules& rules, int crease) {
   const TangentMasks smooth = smooth_tangents(rules.kind, rules.edge_count());
   const auto turned = [&](const RingMask& mask) {
@@ -251,7 +251,7 @@ TangentMasks crease_sector(const RingRules& rules, int first, int faces, LimitMa
   return {placed(local.first), placed(local.second)};
 }
 
-/// Tangents of the stationary rules in the sector that starts at edge `first`.
+/// The tangents of the stationary rules in the sector that starts at edge `first`.
 TangentMasks sector_tangents(const RingRules& rules, int first, int faces, LimitMasks choice) {
   const int n = rules.edge_count();
   switch (rule_of(rules)) {
@@ -266,7 +266,7 @@ TangentMasks sector_tangents(const RingRules& rules, int first, int faces, Limit
     case VertexRule::Corner:
       break;
   }
-  // Two edges of a fixed vertex: the sides of its sector, or the first two where no side is sharp.
+  // A fixed vertex takes two edges: the sides of its sector, or the first two edges where no side is sharp.
   const int last = rule_of(rules) == VertexRule::Corner && faces < n ? (first + faces) % n : next_edge(rules, first);
   return {edge_difference(rules, first), edge_difference(rules, last)};
 }
@@ -300,7 +300,7 @@ RingRules ring_rules(const Topology& topology, const Scheme& scheme, double alph
       rules.smooth_triangles[j] = topology.face_size(topology.face(ring.corners[j])) == 3 ? 1 : 0;
       any = any || rules.smooth_triangles[j] != 0;
     }
-    // An open ring's sharp outer edges have no second face, so that no edge looks past the end.
+    // The outer edges of an open ring are sharp and have no second face, so no edge looks past the ring's end.
     if (!any) rules.smooth_triangles.clear();
   }
   return rules;

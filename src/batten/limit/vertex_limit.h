@@ -1,4 +1,4 @@
-/// \file The limit at one vertex as weights of its ring, whatever the vertex is.
+/// \file The limit at one vertex as weights of its ring, for every kind of vertex.
 #pragma once
 #include <algorithm>
 
@@ -6,18 +6,18 @@
 
 namespace batten {
 
-/// Which points of a surface.
+/// Which quantity a tessellation computes.
 enum class TileValue {
-  Refined,  ///< the control points after the steps
-  Limit,    ///< their limit positions
+  Refined,  ///< the control points after the refinement steps
+  Limit,    ///< the limit positions of those points
   TangentU,
   TangentV
 };
 
 inline bool is_tangent(TileValue value) { return value == TileValue::TangentU || value == TileValue::TangentV; }
 
-/// Calls visit(vertex, weight) for the limit position, or one of two tangents that span the plane on the half-edge's
-/// side, at the half-edge's origin. Quads or triangles only.
+/// Calls visit(vertex, weight) for the limit position at the half-edge's origin, or for one of two tangents that span
+/// the tangent plane on the half-edge's side. For meshes of quads or of triangles only.
 template <typename Visit>
 void visit_vertex_limit(const Topology& topology, const Scheme& scheme, TileValue value, Index half_edge,
                         const Visit& visit) {

@@ -18,12 +18,12 @@ std::string edge_name(Index a, Index b) {
   return "edge (" + std::to_string(std::min(a, b)) + ", " + std::to_string(std::max(a, b)) + ")";
 }
 
-/// Problems kind by kind.
+/// Collects problems by kind.
 class Findings {
  public:
   explicit Findings(std::size_t limit) : limit_(limit) {}
 
-  /// The message is made only where it is kept.
+  /// Calls make_message only if the message is kept.
   template <typename Message>
   void add(ErrorCode kind, const Message& message) {
     auto place =
@@ -38,7 +38,7 @@ class Findings {
   std::vector<MeshProblem> problems_;
 };
 
-/// Whether the arrays can be read at all.
+/// True if the arrays can be read at all.
 bool check_arrays(const Mesh& mesh, Findings& findings) {
   const auto& offsets = mesh.face_offsets;
   if (mesh.face_vertices.size() > static_cast<std::size_t>(std::numeric_limits<Index>::max())) {
@@ -64,7 +64,7 @@ void check_points(const Mesh& mesh, Findings& findings) {
   }
 }
 
-/// Marks faces that are wrong in themselves.
+/// Marks the faces that are wrong by themselves.
 Buffer<std::uint8_t> check_faces(const Mesh& mesh, Findings& findings) {
   Buffer<std::uint8_t> wrong(static_cast<std::size_t>(mesh.face_count()), 0);
   Buffer<Index> sorted;
@@ -99,7 +99,7 @@ Buffer<std::uint8_t> check_faces(const Mesh& mesh, Findings& findings) {
 }
 
 void check_repeated_faces(const Mesh& mesh, const Buffer<std::uint8_t>& wrong, Findings& findings) {
-  std::vector<std::pair<Index, Index>> repeated;  // the later face, the first
+  std::vector<std::pair<Index, Index>> repeated;  // the later face, then the first one
   for_each_repeated_face(mesh.face_offsets, mesh.face_vertices, wrong, [&](Index first, Index later, bool same_way) {
     if (same_way) repeated.emplace_back(later, first);
   });
@@ -142,7 +142,7 @@ void check_orientation(const SideTable& sides, Findings& findings) {
   }
 }
 
-/// Faces hang together around a vertex through their edges there, however many meet in one.
+/// Finds vertices whose faces are not all connected through edges at the vertex, however many faces share an edge.
 void check_vertices(const Mesh& mesh, const SideTable& sides, Findings& findings) {
   DisjointSets corners(mesh.face_vertices.size());
   Buffer<Index> fans(static_cast<std::size_t>(mesh.vertex_count()), 0);

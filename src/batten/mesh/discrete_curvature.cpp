@@ -13,7 +13,7 @@ namespace batten {
 
 namespace {
 
-/// What the triangles around a vertex add up to.
+/// Sums over the triangles around a vertex.
 struct RingSums {
   Eigen::Vector3d laplacian = Eigen::Vector3d::Zero();  ///< sum_j (cot + cot) / 2 (x - x_j): 2 H n times the area
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
@@ -37,7 +37,7 @@ struct RingSums {
     }
   }
 
-  /// NaN where there is no area or no normal.
+  /// NaN if there is no area or no normal.
   double mean_curvature() const {
     const double length = normal.norm();
     if (!(mixed > 0.0 && length > 0.0)) return std::numeric_limits<double>::quiet_NaN();
@@ -45,7 +45,7 @@ struct RingSums {
   }
 };
 
-/// On a boundary, also of a hole, or where the surface is not smooth.
+/// True on a boundary, at a hole, and where the surface is not smooth.
 bool is_left_out(const Topology& topology, Index v) {
   if (topology.is_boundary_vertex(v) || topology.vertex_sharpness(v) > 0.0F) return true;
   bool sharp = false;
@@ -63,7 +63,7 @@ void require_points(const Topology& topology, ConstValuesRef points) {
   if (points.cols() != 3) throw Error(ErrorCode::BadShape, "curvature needs points of three columns");
 }
 
-/// Half of the sum of cotangents times squared differences: the integral of the squared gradient.
+/// The integral of the squared gradient over a triangle: half of the sum of cotangents times squared differences.
 double squared_gradient(const TriangleCotangents& cot, double at_origin, double at_b, double at_c) {
   const double from_origin = at_b - at_c;
   const double from_b = at_c - at_origin;

@@ -1,4 +1,4 @@
-/// \file The normal of a polygon, as long as it is large.
+/// \file The area normal of a polygon.
 #pragma once
 #include <Eigen/Geometry>
 
@@ -6,9 +6,9 @@
 
 namespace batten {
 
-/// Newell's normal, of a length of twice the area: the sum over the fan from the first corner, whatever the polygon's
-/// shape. Relative to that corner, so that faces far from the origin keep their digits. point(i): of type Vector, for
-/// the corners 0 to count - 1.
+/// Newell's normal, whose length is twice the area: the sum over the fan of triangles from the first corner, for any
+/// shape of polygon. Points are taken relative to that corner, so that faces far from the origin lose no digits.
+/// point(i) returns corner i as a Vector, for i in [0, count).
 template <typename Vector, typename PointOf>
 Vector polygon_normal(Index count, const PointOf& point) {
   Vector sum = Vector::Zero();
@@ -23,7 +23,7 @@ Vector polygon_normal(Index count, const PointOf& point) {
   return sum;
 }
 
-/// Of a face of a mesh that may not be sound, but for this face's corners.
+/// The normal of a face of a mesh in which only this face's corners need be valid.
 inline Eigen::Vector3d face_normal(const Mesh& mesh, Index face) {
   const Index* corners = mesh.face_vertices.data() + mesh.face_offsets[face];
   return polygon_normal<Eigen::Vector3d>(

@@ -1,4 +1,4 @@
-/// \file The faces of a topology as triangles, found again from any corner, and the cotangents of a triangle.
+/// \file The faces of a topology as triangles that can be found from any corner, and the cotangents of a triangle.
 #pragma once
 #include <Eigen/Geometry>
 #include <array>
@@ -9,12 +9,12 @@
 
 namespace batten {
 
-/// Of a triangle's three angles: at its origin and at the ends b and c of the two sides from there.
+/// The cotangents of a triangle's angles: at its origin and at the ends b and c of the two sides from there.
 struct TriangleCotangents {
   double origin;
   double b;
   double c;
-  double twice_area;  ///< where it is zero, the cotangents are not finite
+  double twice_area;  ///< the cotangents are not finite where this is zero
 };
 
 /// to_b, to_c: the two sides from the origin.
@@ -24,7 +24,7 @@ inline TriangleCotangents triangle_cotangents(const Eigen::Vector3d& to_b, const
           twice_area};
 }
 
-/// Splits each face as triangulate_face does; holds nothing where all faces are triangles.
+/// The triangles into which triangulate_face splits each face. Where all faces are triangles, nothing is stored.
 class FaceTriangles {
  public:
   /// points: V-by-3.
@@ -36,10 +36,10 @@ class FaceTriangles {
     for (Index f = 0; f < topology.face_count(); ++f) triangulate_face(mesh, f, triangles_);
   }
 
-  /// Of all faces.
+  /// The number of triangles of all faces.
   Index count() const { return topology_.half_edge_count() - 2 * topology_.face_count(); }
 
-  /// Those of face f start here, face after face.
+  /// The first triangle of face f; the triangles are numbered face by face.
   Index first_of(Index f) const { return topology_.face_begin(f) - 2 * f; }
 
   /// The vertices of the k-th triangle of face f.
@@ -66,7 +66,7 @@ class FaceTriangles {
 
  private:
   Topology topology_;
-  std::vector<std::array<Index, 3>> triangles_;  ///< positions in the face
+  std::vector<std::array<Index, 3>> triangles_;  ///< as positions in the face
 };
 
 }  // namespace batten

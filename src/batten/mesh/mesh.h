@@ -1,6 +1,6 @@
-/// \file A mesh as a file holds it: plain data that anyone may build and nothing may trust.
+/// \file A mesh as a file holds it: plain data that any program may build and that the library never trusts.
 ///
-/// Topology (mesh/topology.h) is the gate between a Mesh and everything that computes.
+/// Topology (mesh/topology.h) checks a Mesh before anything is computed from it.
 #pragma once
 #include <optional>
 #include <string>
@@ -11,21 +11,21 @@
 
 namespace batten {
 
-/// An edge that the surface keeps sharp for `sharpness` levels; kInfiniteSharpness or more: for ever.
+/// An edge that the surface keeps sharp for `sharpness` levels, or forever at kInfiniteSharpness and more.
 struct Crease {
   Index a;
   Index b;
   double sharpness;
 };
 
-/// A vertex that stays where it is for `sharpness` levels.
+/// A vertex that keeps its position for `sharpness` levels.
 struct Corner {
   Index vertex;
   double sharpness;
 };
 
-/// Named rows of numbers at vertices (corner_rows empty: row i belongs to vertex i) or at corners (corner_rows has one
-/// entry per entry of Mesh::face_vertices: the row of `values`, or -1 where the file gives none).
+/// Named rows of numbers. At vertices, corner_rows is empty and row i belongs to vertex i. At corners, corner_rows has
+/// one entry for each entry of Mesh::face_vertices: the row of `values`, or -1 where the file has no value.
 /// Conventional names: "uv" (k = 2), "normal" (k = 3), "color" (k = 3 or 4, in [0, 1]).
 struct Attribute {
   std::string name;
@@ -35,25 +35,25 @@ struct Attribute {
   bool per_corner() const { return !corner_rows.empty(); }
 };
 
-/// Faces from `first_face` on belong to this group until the next Group of the same keyword (OBJ: g, o, usemtl, s).
+/// A group (OBJ: g, o, usemtl, s) of the faces from `first_face` up to the next Group with the same keyword.
 struct Group {
   std::string keyword;
   std::string name;
   Index first_face;
 };
 
-/// What a file holds, and what a program may build itself.
+/// The content of a mesh file, or a mesh that a program builds itself.
 struct Mesh {
   Points points = Points(0, 3);   ///< V-by-3, in the file's unit
   Buffer<Index> face_offsets{0};  ///< F+1: face f has the corners [face_offsets[f], face_offsets[f+1])
   Buffer<Index> face_vertices;    ///< the vertex of each corner, counter-clockwise seen from outside
   std::vector<Crease> creases;
   std::vector<Corner> corners;
-  std::vector<Index> holes;  ///< faces that shape the surface but are not drawn
+  std::vector<Index> holes;  ///< faces that shape the surface but are not part of it
   std::vector<Attribute> attributes;
   std::vector<Group> groups;
-  std::vector<std::string> material_libraries;  ///< OBJ: mtllib, passed through
-  /// The file's word on the surface, where it has one.
+  std::vector<std::string> material_libraries;  ///< OBJ: mtllib; kept for writers
+  /// The choices about the surface that the file makes.
   std::optional<SchemeKind> scheme;
   std::optional<BoundaryRule> boundary;
   std::optional<CreaseMethod> crease_method;
@@ -68,10 +68,10 @@ struct Mesh {
   }
 };
 
-/// The length of the bounding box's diagonal: the length that tolerances are relative to. 0 for an empty mesh.
+/// The length of the bounding box's diagonal, to which tolerances are relative. 0 for an empty mesh.
 double bounding_diagonal(ConstValuesRef points);
 
-/// True where every face has three corners (and there is a face).
+/// True if the mesh has faces and each has three corners.
 bool all_triangles(const Mesh& mesh);
 
 }  // namespace batten

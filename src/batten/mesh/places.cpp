@@ -41,7 +41,7 @@ Buffer<Index> equal_places(const Points& points, const Buffer<Index>& rows) {
   return numbers;
 }
 
-/// First come: a vertex takes the place of the first one within reach that took its own.
+/// Rows in order: each takes the place of the first earlier row within reach that has a place of its own.
 Buffer<Index> near_places(const Points& points, const Buffer<Index>& rows, double tolerance) {
   std::unordered_map<Cell, std::vector<Index>, CellHash> cells;
   Buffer<Index> numbers(rows.size());
@@ -70,7 +70,7 @@ Buffer<Index> near_places(const Points& points, const Buffer<Index>& rows, doubl
 Buffer<Index> place_numbers(const Points& points, const Buffer<Index>& rows, double tolerance) {
   double largest = 0.0;
   for (const Index row : rows) largest = std::max(largest, points.row(row).cwiseAbs().maxCoeff());
-  // Finer than a double tells apart, the cells' numbers would overflow.
+  // A tolerance below the resolution of a double would make the cells' numbers overflow.
   return tolerance > 1e-16 * largest ? near_places(points, rows, tolerance) : equal_places(points, rows);
 }
 

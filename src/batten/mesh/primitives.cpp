@@ -20,7 +20,7 @@ void set_points(Mesh& mesh, std::initializer_list<std::array<double, 3>> points)
   for (const auto& point : points) mesh.points.row(row++) << point[0], point[1], point[2];
 }
 
-/// The products of two sizes that must stay countable by a 32-bit index: corners are four a quad.
+/// Throws Error(TooLarge) if a by b quads have more corners than a 32-bit index can count.
 void check_size(Index a, Index b) {
   const double corners = 4.0 * static_cast<double>(a) * static_cast<double>(b);
   if (corners > static_cast<double>(std::numeric_limits<Index>::max()))
@@ -28,8 +28,8 @@ void check_size(Index a, Index b) {
                                          " quads has more corners than a 32-bit index can count; ask for fewer");
 }
 
-/// One vertex a face, one face a vertex; the dual's faces run counter-clockwise because they are sorted by angle
-/// around the vertex that points out of them. Only for solids centred on the origin.
+/// The dual has a vertex for each face of the solid and a face for each vertex. Its corners are sorted by angle around
+/// the vertex, which points outwards, so its faces run counter-clockwise. Only for solids centred on the origin.
 Mesh dual_of_solid(const Mesh& solid) {
   const Index size = solid.face_size(0);
   Points centres = Points::Zero(solid.face_count(), 3);
@@ -105,7 +105,7 @@ Mesh icosahedron() {
                     {-1, kPhi, 0},
                     {1, -kPhi, 0},
                     {-1, -kPhi, 0}});
-  // Any three vertices at distance 2 from each other bound a face.
+  // Three vertices at distance 2 from each other bound a face.
   const auto is_edge = [&](Index a, Index b) { return (mesh.points.row(a) - mesh.points.row(b)).norm() < 2.5; };
   for (Index a = 0; a < 12; ++a) {
     for (Index b = a + 1; b < 12; ++b) {
@@ -127,8 +127,8 @@ Mesh icosahedron() {
 
 Mesh dodecahedron() {
   Mesh mesh = dual_of_solid(icosahedron());
-  // The centres of the icosahedron's faces are phi^2 / 3 times the classic coordinates, all of them 0, +-1/phi, +-1 or
-  // +-phi; taking the nearest of those leaves no rounding error.
+  // The centres of the icosahedron's faces are phi^2 / 3 times the usual coordinates, which are 0, +-1/phi, +-1 or
+  // +-phi. Taking the nearest of these removes the rounding error.
   const double classic[4] = {0.0, 1.0 / kPhi, 1.0, kPhi};
   for (Eigen::Index i = 0; i < mesh.points.size(); ++i) {
     double& x = mesh.points.data()[i];

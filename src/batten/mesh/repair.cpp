@@ -21,7 +21,7 @@ namespace {
 void require_shape(const Mesh& mesh) {
   const auto& offsets = mesh.face_offsets;
   const auto most = static_cast<std::size_t>(std::numeric_limits<Index>::max());
-  // Splitting may give every corner a vertex of its own.
+  // Splitting may give each corner a vertex of its own.
   if (mesh.face_vertices.size() + static_cast<std::size_t>(mesh.points.rows()) > most) {
     throw Error(ErrorCode::TooLarge, "the mesh has more than 2^31 - 1 vertices and corners; split it");
   }
@@ -61,10 +61,10 @@ double diagonal_of(const Draft& draft) {
 
 void weld(Draft& draft, const RepairOptions& options, RepairLog& log, const Progress& progress) {
   double left = 1.0;
-  // Ends: a collapse takes corners away, a stitch open edges. The diagonal is that of what is there, so that the last
-  // round is what another repair would do.
+  // The loop ends, because each collapse removes corners and each stitch removes open edges. The diagonal is that of
+  // the current draft, so that the last round does what another repair would do.
   for (;;) {
-    // How many rounds there will be is not known: mostly one that welds and one that finds nothing.
+    // The number of rounds is unknown; usually one round welds and one finds nothing.
     report_progress(progress, 1.0 - left);
     left *= 0.5;
     const Rim rim(draft, options.weld > 0.0 ? options.weld * diagonal_of(draft) : 0.0);
@@ -87,13 +87,13 @@ void mend(Draft& draft, const RepairOptions& options, RepairLog& log, const Prog
   report_progress(progress, 0.9);
 }
 
-/// Vertices that a face uses, in order; what became of the input's.
+/// Numbers the vertices that a face uses, in order, and records what became of the input's vertices.
 void number_vertices(const Draft& draft, RepairResult& result, RepairLog& log) {
   const auto input_count = static_cast<std::size_t>(draft.input.vertex_count());
   result.vertex_targets.assign(input_count, -1);
   Buffer<Index> numbers(draft.vertex_sources.size(), -1);
   for (const Index v : draft.vertices) numbers[v] = 0;
-  // Points alone are not isolated: they are all there is.
+  // Points of a mesh without faces are its content and are not isolated.
   const bool only_points = draft.input.face_count() == 0;
   for (Index v = 0; v < draft.input.vertex_count() && only_points; ++v) {
     if (draft.input.points.row(v).allFinite()) numbers[v] = 0;

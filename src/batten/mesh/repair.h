@@ -1,20 +1,20 @@
-/// \file A mesh that no surface can be made of, mended into one that Topology accepts; every change is told.
+/// \file Repairs a mesh that has no surface, so that Topology accepts it, and reports every change.
 ///
-/// In this order:
+/// The steps, in this order:
 ///   1. faces that name no vertex, or a vertex that is not finite, are dropped; vertices repeated within a face are
-///      removed, a face that touches itself becomes several, one of fewer than three vertices is dropped; faces with
-///      the vertices of an earlier one, in whatever direction, are dropped
-///   2. edges of more than two faces are split: faces of one piece stay together, then the pair that is flattest, each
-///      with its own edge; faces left over get a boundary
+///      removed, a face that touches itself becomes several, and one of fewer than three vertices is dropped;
+///      faces with the vertices of an earlier one, in either direction, are dropped
+///   2. edges of more than two faces are split: faces of one piece stay together, then the flattest pair; each pair
+///      gets its own edge, and faces left over get a boundary
 ///   3. faces are reversed where neighbours disagree: the smaller part of a component, or, where that closes a solid,
-///      so that all normals point outwards; what no choice brings to agree (a Moebius strip) is cut open
-///   4. vertices that join several fans of faces get a copy a fan
-///   5. boundaries are welded where their edges lie on each other, if the result stays a surface
-///   6. vertices without a face and tags on what is gone are dropped
+///      so that all normals point outwards; a component that cannot be oriented (a Moebius strip) is cut open
+///   4. vertices that join several fans of faces get a copy for each fan
+///   5. boundaries are welded where their edges coincide, if the result is still a surface
+///   6. vertices without a face and tags on missing elements are dropped
 ///
-/// Nothing else is touched: faces and vertices keep their order, copies of vertices come last, and creases, corners,
-/// holes, groups and attributes are carried along. A mesh without such faults comes back as it was, bit for bit; so
-/// repairing twice is repairing once.
+/// Everything else is kept: faces and vertices keep their order, copies of vertices come last, and creases, corners,
+/// holes, groups and attributes are carried along. A mesh without these faults is returned unchanged, bit for bit, and
+/// repairing a repaired mesh changes nothing.
 #pragma once
 #include <string>
 #include <vector>
@@ -23,51 +23,52 @@
 
 namespace batten {
 
-/// What was done, in the words of the list above.
+/// The kinds of changes, named after the steps above.
 enum class RepairKind {
   BadFaces,          ///< dropped: they name no vertex, or one that is not finite
   DegenerateFaces,   ///< dropped: fewer than three different vertices
-  SimplifiedFaces,   ///< repeated vertices removed, or split where the face touched itself
+  SimplifiedFaces,   ///< repeated vertices were removed, or the face was split where it touched itself
   RepeatedFaces,     ///< dropped: the vertices of an earlier face
   SplitEdges,        ///< edges of more than two faces, given to each pair of faces
   CutEdges,          ///< edges where a non-orientable piece was cut open
-  ReversedFaces,     ///< their vertices in the other direction
+  ReversedFaces,     ///< reversed faces
   SplitVertices,     ///< vertices of several fans of faces, copied for each
   WeldedVertices,    ///< vertices joined to an earlier one at the same place
-  IsolatedVertices,  ///< dropped: no face uses them (any more)
-  DroppedTags        ///< creases, corners and holes on what does not exist (any more)
+  IsolatedVertices,  ///< dropped: no face uses them
+  DroppedTags        ///< dropped creases, corners and holes on missing elements
 };
 
-/// Everything of one kind that was changed.
+/// All changes of one kind.
 struct RepairChange {
   RepairKind kind;
   Index count = 0;              ///< how many faces, vertices, edges or tags
-  std::vector<Index> elements;  ///< all of them, as the input numbers them; two vertices an edge; empty for tags
-  std::string text;             ///< a sentence with the count and the first few
+  std::vector<Index> elements;  ///< all of them in the input's numbers, two vertices for an edge; empty for tags
+  std::string text;             ///< a sentence with the count and the first few elements
 };
 
-/// What may be changed beyond what must be.
+/// Optional changes.
 struct RepairOptions {
-  /// How near vertices must be to be welded, of the bounding box's diagonal. 0: equal coordinates; below 0: no welding.
+  /// The greatest distance at which vertices are welded, relative to the bounding box's diagonal. 0: equal coordinates;
+  /// below 0: no welding.
   double weld = 0.0;
 };
 
-/// The repaired mesh, and where its elements come from.
+/// The repaired mesh and the origin of its elements.
 struct RepairResult {
   Mesh mesh;
-  std::vector<RepairChange> changes;  ///< in the order above; empty: the mesh is the input
+  std::vector<RepairChange> changes;  ///< in the order of the steps; empty if the mesh is the input
   Buffer<Index> vertex_sources;       ///< the input vertex of each vertex
   Buffer<Index> face_sources;         ///< the input face of each face
-  Buffer<Index> vertex_targets;       ///< of each input vertex the first vertex it became or was welded to; -1: dropped
-  Buffer<Index> face_targets;         ///< of each input face the first face it became; -1: dropped
+  Buffer<Index> vertex_targets;       ///< for each input vertex, the first one it became or was welded to, or -1
+  Buffer<Index> face_targets;         ///< for each input face, the first face it became, or -1
 };
 
-/// The repaired mesh is accepted by Topology (it may have no face left).
-/// Throws Error(BadShape) where the arrays do not fit each other, Error(TooLarge), Error(BadArgument) for a weld that
-/// is not finite or over 1, Error(Cancelled). O(H log H).
+/// Topology accepts the repaired mesh, which may have no faces left. O(H log H).
+/// Throws Error(BadShape) if the arrays do not fit each other, Error(TooLarge), Error(BadArgument) for a weld that is
+/// not finite or over 1, Error(Cancelled).
 RepairResult repair(const Mesh& mesh, const RepairOptions& options = {}, const Progress& progress = {});
 
-/// A word for a program: "welded-vertices" and so on.
+/// The kind's name for programs, such as "welded-vertices".
 std::string repair_word(RepairKind kind);
 
 }  // namespace batten

@@ -1,4 +1,5 @@
-/// \file A mesh under repair: its faces, and where each corner, face and vertex comes from. The steps of mesh/repair.h.
+/// \file A mesh under repair: its faces and the origin of each corner, face and vertex. The functions are the steps of
+/// mesh/repair.h.
 #pragma once
 #include "batten/mesh/repair.h"
 #include "batten/mesh/sheets.h"
@@ -11,24 +12,24 @@ struct Draft {
 
   const Mesh& input;
   Buffer<Index> offsets{0};
-  Buffer<Index> vertices;        ///< per corner; may leave vertices unused
-  Buffer<Index> corner_sources;  ///< per corner: the input corner
+  Buffer<Index> vertices;        ///< for each corner; some vertices may be unused
+  Buffer<Index> corner_sources;  ///< for each corner, the input's corner
   Buffer<Index> face_sources;
-  Buffer<Index> vertex_sources;   ///< per vertex; the input's vertices first, then copies
-  Buffer<std::uint8_t> reversed;  ///< per face: against the input
+  Buffer<Index> vertex_sources;   ///< for each vertex; the input's vertices come first, then copies
+  Buffer<std::uint8_t> reversed;  ///< for each face, 1 if reversed with respect to the input
 
   Index face_count() const { return static_cast<Index>(face_sources.size()); }
   Index vertex_count() const { return static_cast<Index>(vertex_sources.size()); }
   Eigen::Vector3d point(Index vertex) const { return input.points.row(vertex_sources[vertex]).transpose(); }
   Index source(Index vertex) const { return vertex_sources[vertex]; }
-  /// Newell's, not of unit length.
+  /// Newell's normal, not of unit length.
   Eigen::Vector3d normal(Index face) const;
-  /// A face at an edge, for match_sheets().
+  /// The face at an edge in the form that match_sheets() takes.
   EdgeFace edge_face(Index side, const SideTable& sides, const Orientation& orientation, bool forward) const;
 
   void add_corner(Index vertex, Index corner_source);
   void end_face(Index face_source, bool is_reversed);
-  /// The same vertices, no faces: to be filled again.
+  /// A draft with the same vertices and no faces, which the caller adds.
   Draft without_faces() const;
   void copy_face(const Draft& other, Index face);
   void take_faces(Draft& other);
@@ -36,7 +37,7 @@ struct Draft {
   void reverse(const Buffer<std::uint8_t>& faces);
 };
 
-/// The changes as they are met, kind by kind.
+/// Records changes by kind.
 class RepairLog {
  public:
   void add(RepairKind kind, Index element) { of(kind).elements.push_back(element); }
@@ -45,7 +46,7 @@ class RepairLog {
     add(kind, b);
   }
   void count_tag() { ++of(RepairKind::DroppedTags).count; }
-  /// Those that happened, with counts and sentences.
+  /// The changes that happened, with counts and sentences.
   std::vector<RepairChange> take();
 
  private:
@@ -53,37 +54,38 @@ class RepairLog {
   std::vector<RepairChange> changes_;
 };
 
-/// Step 1 without repeated faces: the input's usable faces.
+/// Step 1 except repeated faces: a draft of the input's usable faces.
 Draft draft_of(const Mesh& input, RepairLog& log);
-/// Faces whose vertices repeat are simplified or dropped. True when any was.
+/// Simplifies or drops faces whose vertices repeat. Returns true if there were any.
 bool simplify_faces(Draft& draft, RepairLog& log);
-/// Of faces with the same vertices around, in whatever direction, the first stays. Two of opposite directions both stay
-/// where they close a pillow of their own, and as a wall between two bodies: where every edge has two more faces that
-/// are not given twice.
+/// Keeps the first of several faces with the same vertices, in either direction. Two faces of opposite directions are
+/// both kept where they close a pillow of their own, and where they are a wall between two bodies: where every edge has
+/// two more faces that are not repeated.
 void drop_repeated_faces(Draft& draft, RepairLog& log);
 
-/// Steps 2 to 4: afterwards the draft is an oriented manifold.
+/// Steps 2 to 4: makes the draft an oriented manifold.
 void split(Draft& draft, RepairLog& log);
 
-/// Closed components in which a face was reversed: all faces, where their normals point inwards. The draft must be a
-/// manifold.
+/// Reverses all faces of the closed components in which a face was reversed, if their normals point inwards. The draft
+/// must be a manifold.
 void turn_outwards(Draft& draft);
 
 /// The open edges of a draft that is a manifold.
 struct Rim {
-  /// Vertices within the tolerance of each other are at one place; see place_numbers().
+  /// Vertices within the tolerance of each other are at the same place; see place_numbers().
   Rim(const Draft& draft, double tolerance);
 
   SideTable sides;
   SidePairs pairs;
-  Buffer<Index> places;  ///< of each vertex at the boundary; -1 inside
-  Buffer<Index> open;    ///< sides without a partner
+  Buffer<Index> places;  ///< of each vertex at the boundary; -1 for others
+  Buffer<Index> open;    ///< the sides without a partner
 };
 
-/// Open edges without length are closed up, single faces that lie on another are dropped; needs split() afterwards.
-/// True when anything was.
+/// Collapses open edges of length 0 and drops single faces that lie on another face; split() must follow. Returns true
+/// if there were any.
 bool collapse(Draft& draft, const Rim& rim, RepairLog& log);
-/// Step 5: welds what can be at one go; the draft stays an oriented manifold. True when anything was.
+/// Step 5: welds everything that one round can weld. The draft stays an oriented manifold. Returns true if anything was
+/// welded.
 bool stitch(Draft& draft, const Rim& rim);
 
 }  // namespace batten

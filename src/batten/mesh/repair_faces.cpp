@@ -1,4 +1,4 @@
-/// The faces one by one: indices, numbers, repeated vertices, repeated faces.
+/// Repairs of single faces: indices, numbers, repeated vertices, repeated faces.
 #include <algorithm>
 #include <numeric>
 
@@ -62,7 +62,7 @@ void Draft::reverse(const Buffer<std::uint8_t>& faces) {
   for (Index f = 0; f < face_count(); ++f) {
     if (faces[f] == 0) continue;
     reversed[f] ^= 1;
-    // The first corner stays first.
+    // The first corner is kept.
     std::reverse(vertices.begin() + offsets[f] + 1, vertices.begin() + offsets[f + 1]);
     std::reverse(corner_sources.begin() + offsets[f] + 1, corner_sources.begin() + offsets[f + 1]);
   }
@@ -97,7 +97,8 @@ bool is_simple(const Index* first, const Index* last, Buffer<Index>& sorted) {
   return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
 }
 
-/// Cuts a face into loops without a repeated vertex: walking along it, a vertex that was met before closes one.
+/// Cuts a face into loops without a repeated vertex. Walking along the face, each vertex that was met before closes a
+/// loop.
 class LoopCutter {
  public:
   LoopCutter(const Draft& draft, Index face, Buffer<Index> sorted) : draft_(draft), names_(std::move(sorted)) {
@@ -106,7 +107,7 @@ class LoopCutter {
     for (Index c = draft.offsets[face]; c < draft.offsets[face + 1]; ++c) meet(c);
     close(0);
   }
-  const std::vector<std::vector<Index>>& loops() const { return loops_; }  ///< of three corners or more
+  const std::vector<std::vector<Index>>& loops() const { return loops_; }  ///< the loops of three corners or more
 
  private:
   Index name(Index corner) const {
@@ -134,7 +135,7 @@ class LoopCutter {
 
   const Draft& draft_;
   Buffer<Index> names_;
-  std::vector<Index> depth_;  ///< of each name in the path, or -1
+  std::vector<Index> depth_;  ///< the position of each name in the path, or -1
   std::vector<Index> path_;
   std::vector<std::vector<Index>> loops_;
 };

@@ -1,4 +1,4 @@
-/// Changes in words.
+/// Sentences about changes.
 #include <algorithm>
 
 #include "batten/mesh/repair_draft.h"
@@ -33,7 +33,7 @@ const Wording& wording(RepairKind kind) {
 
 bool names_edges(RepairKind kind) { return kind == RepairKind::SplitEdges || kind == RepairKind::CutEdges; }
 
-/// "12, 17, 40, ..." or "(3, 4), (7, 9), ..."
+/// Such as "12, 17, 40, ..." or "(3, 4), (7, 9), ...".
 std::string first_elements(const RepairChange& change) {
   constexpr std::size_t kShown = 5;
   const std::size_t step = names_edges(change.kind) ? 2 : 1;
@@ -47,7 +47,7 @@ std::string first_elements(const RepairChange& change) {
   return text;
 }
 
-/// "12,345"
+/// Such as "12,345".
 std::string grouped(Index count) {
   std::string text = std::to_string(count);
   for (auto place = static_cast<std::ptrdiff_t>(text.size()) - 3; place > 0; place -= 3) {
@@ -63,7 +63,7 @@ std::string sentence(const RepairChange& change) {
   return change.elements.empty() ? text : text + ": " + first_elements(change);
 }
 
-/// Two a step, in order, each once.
+/// Sorts the elements, `step` numbers each, and removes repetitions.
 void tidy(std::vector<Index>& elements, std::size_t step) {
   std::vector<std::pair<Index, Index>> items;
   for (std::size_t i = 0; i < elements.size(); i += step) {

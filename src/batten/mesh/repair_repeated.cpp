@@ -1,4 +1,4 @@
-/// Of faces that stand twice the first stays.
+/// Repeated faces: the first is kept.
 #include <algorithm>
 
 #include "batten/mesh/repair_draft.h"
@@ -8,7 +8,7 @@ namespace batten {
 
 namespace {
 
-/// Whether two faces of opposite directions may both stay.
+/// True if two faces of opposite directions may both be kept.
 bool both_stay(const Draft& draft, const SideTable& sides, const Buffer<std::uint8_t>& doubled, Index face) {
   bool pillow = true;
   bool wall = true;

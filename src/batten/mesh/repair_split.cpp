@@ -1,4 +1,4 @@
-/// Edges of many faces, orientation, fans: which sides stay together decides everything else.
+/// Edges of many faces, orientation and fans: all follow from which sides are paired.
 #include <algorithm>
 
 #include "batten/mesh/repair_draft.h"
@@ -9,7 +9,7 @@ namespace {
 
 using Side = SideTable::Side;
 
-/// The corners that stand for one vertex: those of faces that hang together around it.
+/// Sets of corners that are one vertex: the corners of faces that are connected around it.
 DisjointSets fans(const Draft& draft, const SideTable& sides, const SidePairs& pairs) {
   DisjointSets sets(draft.vertices.size());
   for (Index a = 0; a < sides.corner_count(); ++a) {
@@ -22,7 +22,7 @@ DisjointSets fans(const Draft& draft, const SideTable& sides, const SidePairs& p
   return sets;
 }
 
-/// Pairs of faces at the edges of more than two.
+/// Pairs the faces at edges of more than two faces.
 class CrowdedEdges {
  public:
   explicit CrowdedEdges(const SideTable& sides) : sides_(sides) {
@@ -53,8 +53,8 @@ class CrowdedEdges {
     }
   }
 
-  /// Parts the pairs of edges that would end in the same two vertices. One round is enough: what is parted has one
-  /// outgoing and one incoming side a fan. True when there were any.
+  /// Separates pairs whose edges would end in the same two vertices. One round is enough, since each separated fan has
+  /// one outgoing and one incoming side. Returns true if there were any.
   bool part_doubled(DisjointSets& fans, SidePairs& pairs) const {
     bool any = false;
     for (const auto& edge : edges_) {
@@ -82,11 +82,11 @@ class CrowdedEdges {
   std::vector<std::pair<const Side*, const Side*>> edges_;
 };
 
-/// Corners of one fan get one vertex: the first fan of a vertex keeps it, the others get copies.
+/// Gives the corners of each fan one vertex: the first fan of a vertex keeps it, the others get copies.
 void number_fans(Draft& draft, DisjointSets& fans) {
   const auto corner_count = static_cast<Index>(draft.vertices.size());
   Buffer<std::uint8_t> taken(draft.vertex_sources.size(), 0);
-  std::vector<std::pair<Index, Index>> further;  // vertex, first corner
+  std::vector<std::pair<Index, Index>> further;  // vertex, then first corner
   Buffer<Index> of_root(draft.vertices.size());
   for (Index c = 0; c < corner_count; ++c) {
     if (fans.root(c) != c) continue;

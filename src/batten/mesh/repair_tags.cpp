@@ -9,16 +9,16 @@ namespace batten {
 
 namespace {
 
-/// A tag at a place of the output.
+/// A tag and its place in the output.
 struct Placed {
   std::uint64_t place;
   double sharpness;
-  Index tag;  ///< in the input's list
+  Index tag;  ///< its index in the input's list
   Index a;
   Index b;
 };
 
-/// Of several tags at a place the sharpest, in the order of the input's tags.
+/// Keeps the sharpest of several tags at a place, in the order of the input's tags.
 void keep_sharpest(std::vector<Placed>& placed) {
   std::sort(placed.begin(), placed.end(), [](const Placed& x, const Placed& y) {
     return std::make_tuple(x.place, -x.sharpness, x.tag) < std::make_tuple(y.place, -y.sharpness, y.tag);
@@ -38,13 +38,13 @@ struct Carrier {
 
   Index input_vertex(std::size_t corner) const { return input.face_vertices[draft.corner_sources[corner]]; }
 
-  /// The input's corner at whose side the output's side lies.
+  /// The input's corner whose side contains the output's side.
   Index input_side(Index face, Index corner, Index next) const {
     return draft.corner_sources[draft.reversed[face] != 0 ? next : corner];
   }
 
   void creases() const {
-    std::vector<std::pair<std::uint64_t, Index>> keys;  // the last tag of an edge is the one that counts
+    std::vector<std::pair<std::uint64_t, Index>> keys;  // the last tag of an edge counts
     std::vector<std::uint8_t> met(input.creases.size(), 0);
     for (std::size_t i = 0; i < input.creases.size(); ++i) {
       const Crease& crease = input.creases[i];
@@ -124,7 +124,7 @@ struct Carrier {
     return static_cast<Index>(std::lower_bound(sources.begin(), sources.end(), input_face) - sources.begin());
   }
 
-  /// A group that lost all its faces goes.
+  /// Groups that lost all their faces are dropped.
   void groups() const {
     for (std::size_t i = 0; i < input.groups.size(); ++i) {
       const Group& group = input.groups[i];
@@ -148,7 +148,7 @@ struct Carrier {
 
   void attributes() const {
     for (const Attribute& attribute : input.attributes) {
-      // Without corners it would pass for one at the vertices.
+      // Without corners, the attribute would be read as one at the vertices.
       if (attribute.per_corner() && draft.vertices.empty()) continue;
       Attribute carried{attribute.name, {}, {}};
       const bool seam = attribute.name == "uv" || attribute.name == "normal";

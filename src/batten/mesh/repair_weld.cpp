@@ -1,4 +1,4 @@
-/// Welding: open edges that lie on each other become one edge; vertices follow.
+/// Welding: open edges that coincide become one edge, and their vertices are joined.
 #include <algorithm>
 
 #include "batten/mesh/places.h"
@@ -33,7 +33,7 @@ void join_vertices(Draft& draft, DisjointSets& sets) {
   for (Index& v : draft.vertices) v = sets.root(v);
 }
 
-/// Marks single faces that lie on an earlier one, or on one that is not single.
+/// Marks single faces that lie on an earlier face, or on a face that is not single.
 bool mark_lying_faces(const Draft& draft, const Rim& rim, Buffer<std::uint8_t>& dropped) {
   const auto count = static_cast<std::size_t>(draft.face_count());
   Buffer<std::uint8_t> inside(count, 0);
@@ -107,7 +107,7 @@ class Stitcher {
     return std::any_of(rim_.open.begin(), rim_.open.end(), [&](Index s) { return is_stitch(s); });
   }
 
-  /// Open sides with the same two places.
+  /// Collects open sides with the same two places.
   void gather() {
     for (const Index side : rim_.open) {
       if (from_place(side) != to_place(side)) {
@@ -123,7 +123,7 @@ class Stitcher {
     }
   }
 
-  /// Faces folded flat onto each other are two layers, not a seam.
+  /// True for faces folded flat onto each other, which are two layers and not a seam.
   bool folded(Index a, Index b) const {
     const Eigen::Vector3d start = draft_.point(rim_.sides.from(a));
     const Eigen::Vector3d end = draft_.point(rim_.sides.to(a));
@@ -173,11 +173,11 @@ class Stitcher {
     return sets;
   }
 
-  /// Where welding would make one edge of several, or bring a face to touch itself, nothing is welded at those
-  /// vertices. One round is enough: what is left is a part of what was asked for.
+  /// Cancels welding at vertices where it would join several edges or make a face touch itself. One round is enough,
+  /// since the remaining welds are a subset of those requested.
   bool cancel_clashes(DisjointSets& sets) {
-    Buffer<std::uint8_t> clashing(draft_.vertex_sources.size(), 0);  // by root
-    Buffer<std::uint8_t> merged(draft_.vertex_sources.size(), 0);    // by root
+    Buffer<std::uint8_t> clashing(draft_.vertex_sources.size(), 0);  // by set
+    Buffer<std::uint8_t> merged(draft_.vertex_sources.size(), 0);    // by set
     for (const Index side : rim_.open) {
       const Index v = rim_.sides.from(side);
       if (sets.root(v) != v) merged[sets.root(v)] = 1;
@@ -228,7 +228,7 @@ class Stitcher {
 
   Draft& draft_;
   const Rim& rim_;
-  SidePairs pairs_;  ///< the rim's and the stitches
+  SidePairs pairs_;  ///< the pairs of the rim and of the stitches
   std::vector<Side> open_;
   std::vector<std::pair<std::size_t, std::size_t>> edges_;
 };

@@ -8,7 +8,7 @@ namespace {
 
 enum class Match { None, SameDirection, Reversed };
 
-/// Whether two faces have the same vertices around.
+/// Compares the cycles of vertices of two faces.
 Match compare(const Index* a, const Index* b, Index size) {
   const auto start = static_cast<Index>(std::find(b, b + size, a[0]) - b);
   if (start == size) return Match::None;
@@ -53,7 +53,7 @@ void for_each_repeated_face(const Buffer<Index>& offsets, const Buffer<Index>& n
     faces.push_back({key, offsets[f + 1] - offsets[f], f});
   }
   std::sort(faces.begin(), faces.end());
-  std::vector<Index> firsts;  // of the different faces with one key, nearly always one
+  std::vector<Index> firsts;  // the different faces with one key; almost always one
   for (std::size_t i = 0; i < faces.size(); ++i) {
     if (i == 0 || !faces[i].like(faces[i - 1])) firsts.clear();
     Match match = Match::None;

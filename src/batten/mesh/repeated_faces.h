@@ -1,4 +1,4 @@
-/// \file Faces that stand twice in a mesh.
+/// \file Faces that occur several times in a mesh.
 #pragma once
 #include <functional>
 
@@ -7,8 +7,8 @@
 
 namespace batten {
 
-/// Visits faces that have the same vertices around: visit(first, later, same_direction), the lowest face first. `names`
-/// has the vertex of each corner; faces with a mark in `skipped` are left out. O(H log H).
+/// Calls visit(first, later, same_direction) for faces with the same vertices; the lowest face comes first. `names` has
+/// the vertex of each corner. Faces with a mark in `skipped` are left out. O(H log H).
 void for_each_repeated_face(const Buffer<Index>& offsets, const Buffer<Index>& names,
                             const Buffer<std::uint8_t>& skipped, const std::function<void(Index, Index, bool)>& visit);
 

@@ -12,18 +12,18 @@ namespace {
 
 constexpr Index kTurn = 1 << 16;
 
-/// A face at the place on the circle where a face of the other direction would be its flat continuation if it were at
-/// the same place: backward faces stand half a turn on.
+/// A face on the circle of angles. Faces that pass the edge backwards are placed half a turn further, so that a forward
+/// and a backward face at the same place are flat continuations of each other.
 struct Place {
   Index position;
   bool forward;
   Index side;
 };
 
-/// A candidate pair of neighbours on the circle.
+/// A candidate pair: two neighbours on the circle.
 struct Candidate {
-  Index bend;      ///< from flat, 0 to half a turn
-  Index interior;  ///< the angle inside, below half a turn where the edge is convex
+  Index bend;      ///< the deviation from flat, 0 to half a turn
+  Index interior;  ///< the angle inside; below half a turn where the edge is convex
   std::size_t first;
   std::size_t second;
   bool operator>(const Candidate& other) const {
@@ -31,7 +31,7 @@ struct Candidate {
   }
 };
 
-/// Greedy on a circle: the closest two of opposite kind are neighbours once what was taken is unlinked.
+/// Greedy matching on a circle: the closest two of opposite kind are always neighbours once matched ones are unlinked.
 class Circle {
  public:
   explicit Circle(std::vector<Place> places) : places_(std::move(places)) {
@@ -85,7 +85,7 @@ class Circle {
 Index angle_around(const Eigen::Vector3d& axis, const EdgeFace& face) {
   const Eigen::Vector3d first = axis.unitOrthogonal();
   const Eigen::Vector3d second = axis.normalized().cross(first);
-  // The face lies to the left of its side: its direction away from the edge is normal x side.
+  // The face lies to the left of its side, so it extends from the edge in the direction normal x side.
   const Eigen::Vector3d along = face.listed_forward ? axis : Eigen::Vector3d(-axis);
   const Eigen::Vector3d away = face.normal.cross(along);
   const double turn = std::atan2(away.dot(second), away.dot(first)) / (2.0 * std::numbers::pi);

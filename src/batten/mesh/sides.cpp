@@ -28,7 +28,7 @@ SideTable::SideTable(const Buffer<Index>& offsets, const Buffer<Index>& vertices
     }
   };
   for (Index f = 0; f < face_count(); ++f) std::fill(faces_.begin() + offsets[f], faces_.begin() + offsets[f + 1], f);
-  // Counted into buckets by lower vertex, then sorted within each.
+  // Sides are counted into buckets by lower vertex and then sorted within each bucket.
   Index highest = -1;
   for_each_side([&](Index /*c*/, Index low) { highest = std::max(highest, low); });
   Buffer<Index> ends(static_cast<std::size_t>(highest) + 2, 0);
@@ -68,8 +68,8 @@ SidePairs pair_sides(const SideTable& sides) {
 
 namespace {
 
-/// Meets the faces of one component, those that agree first; the order in which the others are met decides which pairs
-/// stay in conflict.
+/// Visits the faces of one component, those that agree first. The order in which the others are visited decides which
+/// pairs remain in conflict.
 class Walk {
  public:
   Walk(const SideTable& sides, const SidePairs& pairs, Orientation& result)
@@ -97,7 +97,7 @@ class Walk {
 
  private:
   struct Step {
-    Index side;  ///< of the face before, that led here; or -1
+    Index side;  ///< the side of the previous face that led here, or -1
     Index face;
   };
 

@@ -1,14 +1,14 @@
-/// \file The sides of polygons gathered edge by edge, and one orientation for all faces: for faces that are not a
+/// \file The sides of polygons grouped by edge, and a common orientation of all faces, for faces that are not a
 /// Topology yet (mesh/check.h, mesh/repair.h).
 ///
-/// A side is named by its corner: side c runs from corner c's vertex to the next corner's, its face on the left.
+/// A side is named by its corner: side c runs from corner c's vertex to the next corner's, with its face on the left.
 #pragma once
 #include "batten/buffer.h"
 #include "batten/types.h"
 
 namespace batten {
 
-/// Which of a number of things are one: each set is named by its lowest member.
+/// Disjoint sets of indices. Each set is named by its lowest member.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t count);
@@ -19,7 +19,7 @@ class DisjointSets {
   Buffer<Index> parents_;
 };
 
-/// Keeps references: offsets and vertices must outlive it. O(H log H); 20 bytes a corner.
+/// Refers to offsets and vertices, which must outlive it. O(H log H); 20 bytes for each corner.
 class SideTable {
  public:
   struct Side {
@@ -28,7 +28,7 @@ class SideTable {
     bool operator<(const Side& other) const { return edge != other.edge ? edge < other.edge : corner < other.corner; }
   };
 
-  /// Faces with a mark in `skipped` (empty: none) have no sides here.
+  /// Faces with a mark in `skipped` have no sides here; an empty `skipped` marks none.
   SideTable(const Buffer<Index>& offsets, const Buffer<Index>& vertices, const Buffer<std::uint8_t>& skipped = {});
 
   Index face_count() const { return static_cast<Index>(offsets_.size()) - 1; }
@@ -47,7 +47,8 @@ class SideTable {
   }
   const Buffer<Side>& sorted() const { return sides_; }
 
-  /// Calls visit(first, last) for the sides of each edge, by lower vertex, then higher one; sides by corner.
+  /// Calls visit(first, last) for the range of sides of each edge, ordered by the edge's lower vertex, then the higher
+  /// one. Sides of an edge are ordered by corner.
   template <typename Visit>
   void for_each_edge(const Visit& visit) const {
     const Side* end = sides_.data() + sides_.size();
@@ -66,8 +67,8 @@ class SideTable {
   Buffer<Side> sides_;
 };
 
-/// For each side the one on the other side of its edge, or -1; and whether both run the same way, so that one of the
-/// two faces has to be reversed.
+/// For each side, the side on the other side of its edge or -1, and whether both run in the same direction, so that one
+/// of the two faces has to be reversed.
 struct SidePairs {
   explicit SidePairs(Index corner_count);
   void join(Index a, Index b, bool same_way);
@@ -77,17 +78,17 @@ struct SidePairs {
   Buffer<std::uint8_t> same_way;
 };
 
-/// The edges of two sides as pairs.
+/// Pairs the two sides of each edge.
 SidePairs pair_sides(const SideTable& sides);
 
 struct Orientation {
-  Buffer<std::uint8_t> reversed;  ///< F: of each component's faces the smaller part, so that all agree
-  Buffer<Index> component;        ///< F: numbered by lowest face
+  Buffer<std::uint8_t> reversed;  ///< F: marks the smaller part of each component's faces, so that all agree
+  Buffer<Index> component;        ///< F: components numbered by their lowest face
   Index component_count = 0;
-  Buffer<Index> conflicts;  ///< sides, one of a pair, that no choice brings to agree: cut there and the rest agrees
+  Buffer<Index> conflicts;  ///< sides, one of each pair, that no choice makes agree; cutting there lets the rest agree
 };
 
-/// Agreement between paired sides. Faces that agree already stay together, so that a Moebius strip is cut where its
+/// Makes paired sides agree. Faces that already agree stay together, so that a Moebius strip is cut where its
 /// orientation jumps. O(H).
 Orientation orient(const SideTable& sides, const SidePairs& pairs);
 

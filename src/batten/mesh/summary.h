@@ -1,4 +1,4 @@
-/// \file What a mesh is made of, counted.
+/// \file Counts of a mesh's elements.
 #pragma once
 #include <map>
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace batten {
 
-/// Faces that hang together by their edges.
+/// A set of faces connected by edges.
 struct ComponentSummary {
   Index first_vertex = 0;
   Index vertices = 0;
@@ -24,17 +24,17 @@ struct ComponentSummary {
 
 /// The components, and counts over the whole mesh.
 struct MeshSummary {
-  std::vector<ComponentSummary> components;  ///< by lowest vertex
+  std::vector<ComponentSummary> components;  ///< ordered by lowest vertex
   Index isolated_vertices = 0;
   Index boundary_edges = 0;
   Index boundary_loops = 0;
-  std::map<Index, Index> valences;           ///< inside: number of edges -> number of vertices
-  std::map<Index, Index> boundary_valences;  ///< at the boundary
-  Index sharp_edges = 0;                     ///< with a tag above 0, inside
-  Index semi_sharp_edges = 0;                ///< with a tag between 0 and kInfiniteSharpness
+  std::map<Index, Index> valences;           ///< of interior vertices: number of edges -> number of vertices
+  std::map<Index, Index> boundary_valences;  ///< of boundary vertices
+  Index sharp_edges = 0;                     ///< interior edges with a tag above 0
+  Index semi_sharp_edges = 0;                ///< interior edges with a tag between 0 and kInfiniteSharpness
   float least_sharpness = 0.0F;              ///< of the sharp edges
   float most_sharpness = 0.0F;
-  Index darts = 0;  ///< vertices inside where a single sharp edge ends
+  Index darts = 0;  ///< interior vertices where a single sharp edge ends
 };
 
 /// O(H).

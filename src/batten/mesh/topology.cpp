@@ -14,7 +14,7 @@ namespace batten {
 
 namespace {
 
-/// A half-edge as seen from its origin, for sorting by destination.
+/// A half-edge at its origin, for sorting by destination.
 struct Spoke {
   Index destination;
   Index half_edge;
@@ -83,8 +83,8 @@ SpokeTable gather_spokes(TopologyTables& tables, const Progress& progress) {
   const auto face_count = static_cast<std::ptrdiff_t>(tables.face_offsets.size()) - 1;
   SpokeTable table;
   table.offsets.assign(vertex_count + 1, 0);
-  // A half-edge's place among those that leave its vertex is kept where its twin will stand: to count is dear, for
-  // several threads add to one number, and need be done once only.
+  // Each half-edge's position among those that leave its vertex is stored where its twin will be. Counting once is
+  // enough and saves time, since several threads add to the same counters.
   tables.twins.resize(tables.origins.size());
   parallel_for(
       static_cast<std::ptrdiff_t>(tables.origins.size()),
@@ -113,7 +113,7 @@ SpokeTable gather_spokes(TopologyTables& tables, const Progress& progress) {
   return table;
 }
 
-/// Sorting makes the order independent of which thread came first. False when a directed edge stands twice.
+/// Sorts spokes, which makes their order independent of the threads. Returns false if a directed edge occurs twice.
 bool sort_spokes(SpokeTable& table, const Progress& progress) {
   const auto sorted = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     bool unique = true;
@@ -148,7 +148,7 @@ Index find_spoke(const SpokeTable& table, Index from, Index to) {
   return -1;
 }
 
-/// Each thread writes the entries of its own vertices' spokes, and of their twins from the lower end.
+/// Each thread writes the entries of its own vertices' spokes and, at the lower end of each edge, of their twins.
 void match_twins(const SpokeTable& table, TopologyTables& tables, const Progress& progress) {
   parallel_for(
       tables.vertex_count,
@@ -175,7 +175,7 @@ Index previous_half_edge(const TopologyTables& tables, Index h) {
   return h == tables.face_offsets[f] ? tables.face_offsets[f + 1] - 1 : h - 1;
 }
 
-/// Finds where each vertex's fan starts; false when one turn does not meet all faces of a vertex.
+/// Finds where each vertex's fan starts. Returns false if one turn does not visit all faces of a vertex.
 bool start_fans(const SpokeTable& table, TopologyTables& tables, const Progress& progress) {
   tables.vertex_half_edges.resize(static_cast<std::size_t>(tables.vertex_count));
   const auto fans_hold = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
@@ -204,7 +204,7 @@ bool start_fans(const SpokeTable& table, TopologyTables& tables, const Progress&
   return all_of(tables.vertex_count, progress, fans_hold);
 }
 
-/// Edges are numbered by their lower half-edge, in order.
+/// Numbers edges by their lower half-edge, in order.
 void number_edges(TopologyTables& tables, const Progress& progress) {
   constexpr std::ptrdiff_t kBlock = 1 << 15;
   const auto count = static_cast<std::ptrdiff_t>(tables.origins.size());
@@ -235,7 +235,7 @@ void number_edges(TopologyTables& tables, const Progress& progress) {
       kBlock, progress_within(progress, 0.3, 1.0));
 }
 
-/// False when a tag names what does not exist or is not a number.
+/// Returns false if a tag names a missing element or is not a number.
 bool apply_tags(const Mesh& mesh, const SpokeTable& table, TopologyTables& tables) {
   const auto exists = [&](Index v) { return v >= 0 && v < tables.vertex_count; };
   const auto as_float = [](double sharpness) { return static_cast<float>(std::clamp(sharpness, 0.0, 10.0)); };

@@ -1,8 +1,9 @@
 /// \file The trusted connectivity of a mesh: half-edge tables, built once.
 ///
-/// A face's half-edges are contiguous: face f owns [face_begin(f), face_end(f)), half-edge h runs from origin(h) to
-/// origin(next(h)), and the face lies to its left. At a boundary the twin is -1. vertex_half_edge(v) starts v's fan: at
-/// a boundary vertex it is the boundary's outgoing half-edge, so that turning counter-clockwise meets every face once.
+/// A face's half-edges are contiguous: face f owns [face_begin(f), face_end(f)). Half-edge h runs from origin(h) to
+/// origin(next(h)) with its face on the left. At a boundary the twin is -1. vertex_half_edge(v) starts v's fan: at a
+/// boundary vertex it is the outgoing half-edge of the boundary, so that turning counter-clockwise visits every face
+/// once.
 #pragma once
 #include <memory>
 
@@ -12,10 +13,10 @@
 
 namespace batten {
 
-/// What a Topology is made of; for operators that derive one topology from another in closed form.
+/// The tables of a Topology, for operators that derive one topology from another in closed form.
 struct TopologyTables {
   Index vertex_count = 0;
-  Index uniform_face_size = 0;      ///< the number of corners of every face, or 0 where they differ
+  Index uniform_face_size = 0;      ///< the number of corners of every face, or 0 if it differs
   Buffer<Index> face_offsets;       ///< F+1
   Buffer<Index> origins;            ///< H
   Buffer<Index> twins;              ///< H, -1 at a boundary
@@ -23,25 +24,26 @@ struct TopologyTables {
   Buffer<Index> edges;              ///< H
   Buffer<Index> edge_half_edges;    ///< E: the lower half-edge of each edge
   Buffer<Index> vertex_half_edges;  ///< V, -1 for a vertex without a face
-  Buffer<float> edge_sharpness;     ///< E, or empty where no edge is tagged; boundary edges not included
+  Buffer<float> edge_sharpness;     ///< E, or empty if no edge is tagged; without boundary edges
   Buffer<float> vertex_sharpness;   ///< V, or empty
   Buffer<std::uint8_t> holes;       ///< F, or empty
 };
 
-/// Immutable and safe to share between threads. Memory: 16 bytes a half-edge and 8 to 12 a vertex. A handle: copies are
-/// cheap and share the tables, which live as long as the last of them, so that what is built from a topology keeps its
-/// own and needs nobody else's.
+/// Immutable and safe to share between threads. Memory: 16 bytes for each half-edge and 8 to 12 for each vertex. A
+/// Topology is a handle: copies are cheap and share the tables, which live as long as the last copy. An operator keeps
+/// a copy and therefore never dangles.
 class Topology {
  public:
-  /// The gate. O(V + H), no allocation per face. Throws Error: IndexOutOfRange, NotFinite, DegenerateFace,
-  /// RepeatedFace, NonManifoldEdge, NonManifoldVertex, InconsistentFaces, NonOrientable, TooLarge, BadShape,
-  /// BadArgument (a crease that is no edge), Cancelled. Vertices without a face are allowed.
+  /// Checks the mesh and builds the tables. O(V + H), without an allocation for each face. Throws Error:
+  /// IndexOutOfRange, NotFinite, DegenerateFace, RepeatedFace, NonManifoldEdge, NonManifoldVertex, InconsistentFaces,
+  /// NonOrientable, TooLarge, BadShape, BadArgument (a crease that is no edge), Cancelled. Vertices without a face are
+  /// allowed.
   explicit Topology(const Mesh& mesh, const Progress& progress = {});
 
   Topology(const Topology&) = default;
   Topology& operator=(const Topology&) = default;
 
-  /// Trusts its caller: for Refinement and the like.
+  /// Does not check the tables. For Refinement and other operators of the library.
   static Topology from_tables(TopologyTables tables);
 
   Index vertex_count() const { return tables_->vertex_count; }
@@ -73,9 +75,9 @@ class Topology {
 
   Index vertex_half_edge(Index vertex) const { return tables_->vertex_half_edges[vertex]; }
   bool is_isolated(Index vertex) const { return vertex_half_edge(vertex) < 0; }
-  /// At a vertex with faces.
+  /// The vertex must have faces.
   bool is_boundary_vertex(Index vertex) const { return twin(vertex_half_edge(vertex)) < 0; }
-  /// Number of faces at the vertex; a boundary vertex has one edge more than faces.
+  /// The number of faces at the vertex. A boundary vertex has one more edge than faces.
   Index vertex_face_count(Index vertex) const;
 
   /// Calls visit(h) for the outgoing half-edges of a vertex, counter-clockwise from the start of its fan.
@@ -92,12 +94,12 @@ class Topology {
   bool has_creases() const { return !tables_->edge_sharpness.empty(); }
   bool has_corners() const { return !tables_->vertex_sharpness.empty(); }
   bool has_holes() const { return !tables_->holes.empty(); }
-  /// Boundary edges are infinitely sharp.
+  /// The sharpness of an edge; boundary edges are infinitely sharp.
   float edge_sharpness(Index edge) const {
     if (is_boundary_edge(edge)) return kInfiniteSharpness;
     return has_creases() ? tables_->edge_sharpness[edge] : 0.0F;
   }
-  /// As tagged; what a boundary rule adds is not in it.
+  /// The vertex's tag. It does not include the sharpness that a boundary rule adds.
   float vertex_sharpness(Index vertex) const { return has_corners() ? tables_->vertex_sharpness[vertex] : 0.0F; }
   bool is_hole(Index face) const { return has_holes() && tables_->holes[face] != 0; }
 
@@ -106,13 +108,15 @@ class Topology {
  private:
   explicit Topology(std::shared_ptr<const TopologyTables> tables) : tables_(std::move(tables)) {}
 
-  std::shared_ptr<const TopologyTables> tables_;  // never null: there is no move that would leave nothing behind
+  // Never null: the class has no move constructor that would leave a null pointer.
+  std::shared_ptr<const TopologyTables> tables_;
 };
 
-/// Throws Error(BadShape) unless values has one row a vertex.
+/// Throws Error(BadShape) unless values has one row for each vertex.
 void require_vertex_rows(const Topology& topology, ConstValuesRef values);
 
-/// Component of each vertex by faces, numbered by their lowest vertex; an isolated vertex is a component of its own.
+/// The component of each vertex; components are connected by faces and numbered by their lowest vertex. An isolated
+/// vertex is a component of its own.
 struct Components {
   Buffer<Index> of_vertex;
   Index count = 0;
@@ -120,7 +124,7 @@ struct Components {
 /// O(H).
 Components connected_components(const Topology& topology);
 
-/// Faces as a mesh's arrays, with the tags; points and attributes are the caller's.
+/// A mesh with the faces and tags of a topology. The caller adds points and attributes.
 Mesh mesh_from_topology(const Topology& topology);
 
 }  // namespace batten

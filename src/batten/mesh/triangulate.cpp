@@ -14,7 +14,8 @@ namespace {
 
 using Triangle = std::array<Index, 3>;  // positions in the face
 
-/// Pairs of vertices that are edges already: a diagonal between them would be an edge of too many triangles.
+/// The pairs of vertices that are already edges. A diagonal between two of them would give that edge too many
+/// triangles.
 class Edges {
  public:
   void insert(Index a, Index b) { pairs_.insert(key(a, b)); }
@@ -32,7 +33,7 @@ Eigen::Vector3d point(const Mesh& mesh, Index corner) {
   return mesh.points.row(mesh.face_vertices[corner]).transpose();
 }
 
-/// The ring of corners that are still to be cut from a face.
+/// The ring of corners that have not been cut off from a face.
 class EarCutter {
  public:
   EarCutter(const Mesh& mesh, Index face, const Edges& edges)
@@ -81,10 +82,10 @@ class EarCutter {
   std::vector<Index> left_;
 };
 
-/// A diagonal of a quad from corner `from`; what speaks against it, the weightiest first.
+/// A diagonal of a quad from corner `from`, with the objections to it, the most serious first.
 struct Diagonal {
   bool taken;  ///< it is an edge already
-  bool folds;  ///< the two triangles would lie over each other, as one of the diagonals of an arrowhead does
+  bool folds;  ///< the two triangles would overlap, as with one of the diagonals of an arrowhead
   double square;
   bool better_than(const Diagonal& other) const {
     return std::tuple(taken, folds, square) < std::tuple(other.taken, other.folds, other.square);

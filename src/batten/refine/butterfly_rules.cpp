@@ -14,7 +14,8 @@ ButterflyVertex kind_of(const Topology& topology, const Scheme& scheme, Index ve
     return ButterflyVertex::Corner;
   }
   int edges = 0;
-  int sharp = topology.is_boundary_vertex(vertex) ? 1 : 0;  // its last edge is no half-edge's first
+  // The boundary's incoming edge is the first of no half-edge here.
+  int sharp = topology.is_boundary_vertex(vertex) ? 1 : 0;
   topology.for_each_outgoing(vertex, [&](Index h) {
     ++edges;
     sharp += is_sharp(topology.edge_sharpness(topology.edge(h))) ? 1 : 0;
@@ -34,7 +35,7 @@ void collect(const ButterflyRules<TopologyWalk>& rules, Index half_edge, Butterf
   });
 }
 
-/// The rows of a stencil summed up, a few columns at a time.
+/// Sums the rows of a stencil, a few columns at a time.
 template <typename Scalar>
 void sum_rows(const ButterflyPoint& point, ConstValuesRef values, Scalar* out) {
   constexpr std::ptrdiff_t kColumns = 3;

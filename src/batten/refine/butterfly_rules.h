@@ -1,8 +1,8 @@
 /// \file Which rule makes the new point of an edge under Butterfly and Modified Butterfly.
 ///
-/// The rules walk over half-edges of a connectivity that need not be stored: Walk says how (TopologyWalk for a
-/// Topology). It has a HalfEdge type and origin(h), next(h), previous(h), twin(h) (asked only where is_sharp(h) is
-/// false), is_sharp(h) (tagged in this level, or a boundary) and kind(vertex).
+/// The rules walk over half-edges of a connectivity that need not be stored. The type Walk defines it (TopologyWalk
+/// does so for a Topology): a HalfEdge type and origin(h), next(h), previous(h), twin(h) (called only where is_sharp(h)
+/// is false), is_sharp(h) (tagged at this level, or a boundary) and kind(vertex).
 #pragma once
 #include <vector>
 
@@ -12,19 +12,19 @@
 
 namespace batten {
 
-/// What the rules ask of a vertex.
+/// The kinds of vertices that the rules distinguish.
 enum class ButterflyVertex : std::uint8_t {
   Regular,        ///< six edges, none of them sharp
-  Extraordinary,  ///< another number, none of them sharp
+  Extraordinary,  ///< another number of edges, none of them sharp
   Dart,           ///< one sharp edge, which ends here; smooth otherwise
   Curve,          ///< two sharp edges: a curve passes through
   Corner          ///< curves end here
 };
 
-/// One a vertex; those without faces are corners. O(H).
+/// The kind of each vertex; vertices without faces are corners. O(H).
 Buffer<ButterflyVertex> butterfly_vertices(const Topology& topology, const Scheme& scheme);
 
-/// A Topology and its vertices' kinds, for the rules.
+/// A walk over a Topology and the kinds of its vertices.
 class TopologyWalk {
  public:
   using HalfEdge = Index;
@@ -55,7 +55,7 @@ class ButterflyRules {
 
   ButterflyRules(const Walk& walk, const ButterflyMasks& masks) : walk_(walk), masks_(masks) {}
 
-  /// Calls visit(vertex, weight) for what the new point of h's edge is made of; a vertex may come several times.
+  /// Calls visit(vertex, weight) for each term of the new point of h's edge. A vertex may be visited several times.
   template <typename Visit>
   void visit(HalfEdge h, const Visit& visit) const {
     if (walk_.is_sharp(h)) return visit_curve(h, visit);
@@ -64,8 +64,7 @@ class ButterflyRules {
     visit_stencil(h, visit);
   }
 
-  /// The vertex that follows on the curve after h's end, or before its origin. Only where these are
-  /// ButterflyVertex::Curve.
+  /// The vertex on the curve after h's end, or before h's origin. Requires ButterflyVertex::Curve there.
   auto after(HalfEdge h) const {
     HalfEdge g = walk_.next(h);
     while (!walk_.is_sharp(g)) g = walk_.next(walk_.twin(g));
@@ -77,7 +76,8 @@ class ButterflyRules {
     return walk_.origin(g);
   }
 
-  /// Calls visit(g) for the outgoing half-edges at h's origin, a vertex without a boundary, counter-clockwise from h.
+  /// Calls visit(g) for the outgoing half-edges at h's origin, counter-clockwise from h. The origin must not be on a
+  /// boundary.
   template <typename Visit>
   void turn_around(HalfEdge h, const Visit& visit) const {
     HalfEdge g = h;
@@ -88,15 +88,15 @@ class ButterflyRules {
   }
 
  private:
-  /// Wings in this order: at h's origin on its left, at its end on its left, then both on its right.
+  /// The wings in this order: left of h at its origin, left of h at its end, then the two on its right.
   struct Wings {
     bool there[4];
-    HalfEdge across[4];  ///< the side that the wing lies across, seen from the triangle at h, where it is there
+    HalfEdge across[4];  ///< the side across which the wing lies, in the triangle at h
   };
 
   auto destination(HalfEdge h) const { return walk_.origin(walk_.next(h)); }
   auto opposite(HalfEdge h) const { return walk_.origin(walk_.previous(h)); }
-  /// In line with h before its origin, a regular vertex.
+  /// The vertex in line with h before its origin, which must be regular.
   auto beyond(HalfEdge h) const {
     HalfEdge g = h;
     for (int i = 0; i < 3; ++i) g = walk_.twin(walk_.previous(g));
@@ -129,7 +129,7 @@ class ButterflyRules {
     }
   }
 
-  /// The rules of extraordinary ends, averaged where both ends have one; false where none has.
+  /// Applies the rules of extraordinary ends, averaged where both ends have one. Returns false where neither has one.
   template <typename Visit>
   bool visit_ends(HalfEdge h, const Visit& visit) const {
     const HalfEdge t = walk_.twin(h);
@@ -150,7 +150,8 @@ class ButterflyRules {
     return here_extraordinary || there_extraordinary;
   }
 
-  /// An edge that starts at a corner keeps its direction there, as a curve that ends; false where no end is a corner.
+  /// Applies the rule of an edge at a corner: it keeps its direction there, as a curve that ends. Returns false where
+  /// neither end is a corner.
   template <typename Visit>
   bool visit_corner(HalfEdge h, const Visit& visit) const {
     const auto from = walk_.origin(h);
@@ -158,7 +159,7 @@ class ButterflyRules {
     const bool at_from = walk_.kind(from) == ButterflyVertex::Corner;
     const bool at_to = walk_.kind(to) == ButterflyVertex::Corner;
     if (!at_from && !at_to) return false;
-    const HalfEdge toward = at_from ? walk_.twin(h) : h;  // the corner
+    const HalfEdge toward = at_from ? walk_.twin(h) : h;  // towards the corner
     if (walk_.kind(walk_.origin(toward)) != ButterflyVertex::Regular) {
       visit(from, 0.5);
       visit(to, 0.5);
@@ -195,8 +196,8 @@ class ButterflyRules {
   /// The triangles between two sharp edges at a vertex of a curve.
   struct Span {
     HalfEdge first;     ///< from the vertex along the leading sharp edge
-    int triangles = 0;  ///< 0: no curve passes here
-    int edge = 0;       ///< which of its edges was asked about
+    int triangles = 0;  ///< 0 if no curve passes here
+    int edge = 0;       ///< the edge in question, counted from `first`
   };
 
   Span span(HalfEdge h) const {
@@ -236,7 +237,7 @@ class ButterflyRules {
   Wings find_wings(HalfEdge h, HalfEdge t) const {
     Wings wings{{}, {walk_.previous(h), walk_.next(h), walk_.next(t), walk_.previous(t)}};
     for (int i = 0; i < 4; ++i) {
-      // At a dart the surface is smooth: the rules reach across its sharp edge.
+      // The surface is smooth at a dart, so the rules reach across its sharp edge.
       const auto end = i % 2 == 0 ? walk_.origin(h) : walk_.origin(t);
       wings.there[i] = !walk_.is_sharp(wings.across[i]) || walk_.kind(end) == ButterflyVertex::Dart;
     }
@@ -275,11 +276,11 @@ class ButterflyRules {
 
   auto wing(const Wings& wings, int i) const { return opposite(walk_.twin(wings.across[i])); }
 
-  /// v: the half-edge from the end whose wing number i is missing; x: its twin.
+  /// v: the half-edge from the end at which wing i is missing; x: its twin.
   template <typename Visit>
   void visit_one_missing(HalfEdge v, HalfEdge x, const Wings& wings, int i, const Visit& visit) const {
     constexpr OneWingMissing kMask;
-    const bool left = (i < 2) == (i % 2 == 0);  // of v
+    const bool left = (i < 2) == (i % 2 == 0);  // as seen from v
     visit(walk_.origin(v), kMask.v);
     visit(walk_.origin(x), kMask.x);
     visit(opposite(left ? v : x), kMask.opposite_a);
@@ -289,7 +290,7 @@ class ButterflyRules {
     visit(wing(wings, i ^ 3), kMask.wing_x_b);
   }
 
-  /// `there`: the first of the two wings that are there, on the right of h.
+  /// `there`: the first of the two wings that exist, on the right of h.
   template <typename Visit>
   void visit_side_missing(HalfEdge h, HalfEdge t, const Wings& wings, int there, const Visit& visit) const {
     constexpr SideMissing kMask;
@@ -300,7 +301,8 @@ class ButterflyRules {
     visit(wing(wings, there + 1), kMask.wing_b);
   }
 
-  /// Eight or ten points; what is missing by reflection: a wing across the side s of the triangle s, q is s - q.
+  /// Takes the eight or ten points, with missing ones by reflection: a missing wing across the side s of the triangle q
+  /// s is s - q.
   template <typename Visit>
   void visit_all(HalfEdge h, HalfEdge t, const Wings& wings, const Visit& visit) const {
     const ButterflyMask& mask = masks_.stencil();
@@ -326,7 +328,7 @@ class ButterflyRules {
     visit_beyond(t, mask.beyond, visit);
   }
 
-  /// The vertex in line with h before its origin; by reflection where the origin is not regular.
+  /// The vertex in line with h before its origin, by reflection where the origin is not regular.
   template <typename Visit>
   void visit_beyond(HalfEdge h, double weight, const Visit& visit) const {
     if (walk_.kind(walk_.origin(h)) != ButterflyVertex::Regular) {
@@ -341,16 +343,17 @@ class ButterflyRules {
   const ButterflyMasks& masks_;
 };
 
-/// The new point of an edge, as control points and weights; a vertex may come several times.
+/// The new point of an edge as control points and weights. A vertex may appear several times.
 struct ButterflyPoint {
   std::vector<Index> vertices;
   std::vector<double> weights;
 };
-/// `kinds` of butterfly_vertices(). For those who need single edges; refine_values makes them all.
+/// The new point of a single edge. `kinds` are those of butterfly_vertices(). refine_values computes all edges faster.
 ButterflyPoint butterfly_point(const Topology& topology, const Buffer<ButterflyVertex>& kinds,
                                const ButterflyMasks& masks, Index edge);
 
-/// The control values of one step: V rows kept, one an edge after them. As refine_values (refine/refined_values.h).
+/// The control values of one step: V rows that are kept, then one for each edge. Called by refine_values
+/// (refine/refined_values.h).
 template <typename Scalar>
 void refine_butterfly_values(const Topology& topology, const Scheme& scheme, ConstValuesRef values, Scalar* out,
                              const Progress& progress = {});

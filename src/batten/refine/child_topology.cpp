@@ -11,7 +11,7 @@ namespace batten {
 
 namespace {
 
-/// The half of an edge at the origin of half-edge h: 2e at the origin of the edge's lower half-edge, 2e + 1 at its end.
+/// The half of half-edge h's edge at h's origin: 2e at the origin of the edge's lower half-edge, 2e + 1 at its end.
 Index half_at_origin(const Topology& parent, Index h) {
   const Index e = parent.edge(h);
   return 2 * e + (parent.edge_half_edge(e) == h ? 0 : 1);
@@ -47,7 +47,7 @@ void number_edge_half_edges(TopologyTables& child, Index edge_count, const Progr
   parallel_for(static_cast<std::ptrdiff_t>(child.twins.size()), number, kDefaultBlock, progress);
 }
 
-/// Quad h of half-edge h: v, edge point, face point, previous edge's point.
+/// Quad h of half-edge h has the corners v, edge point, face point and the previous edge's point.
 void fill_quads(const Topology& parent, TopologyTables& child, const Progress& progress) {
   const Index v_count = parent.vertex_count();
   const Index e_count = parent.edge_count();
@@ -80,12 +80,12 @@ void fill_quads(const Topology& parent, TopologyTables& child, const Progress& p
   parallel_for(parent.face_count(), fill, kDefaultBlock, progress);
 }
 
-/// Triangle 4f + k at corner k: v_k, edge k, edge k-1; triangle 4f + 3: edges 0, 1, 2.
+/// Triangle 4f + k at corner k has the corners v_k, edge k and edge k-1; triangle 4f + 3 has the edges 0, 1, 2.
 void fill_triangles(const Topology& parent, TopologyTables& child, const Progress& progress) {
   const Index v_count = parent.vertex_count();
   const Index e_count = parent.edge_count();
-  // Half-edge h = 3f + k of the parent stands in two child triangles: the first side of 4f + k, the third of 4f + k
-  // + 1.
+  // Half-edge h = 3f + k of the parent lies on two child triangles: it is the first side of 4f + k and the third side
+  // of 4f + k + 1.
   const auto corner_triangle = [](Index h) { return 4 * (h / 3) + h % 3; };
   const auto fill = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (auto f = static_cast<Index>(begin); f < end; ++f) {
@@ -116,7 +116,7 @@ void fill_triangles(const Topology& parent, TopologyTables& child, const Progres
   parallel_for(parent.face_count(), fill, kDefaultBlock, progress);
 }
 
-/// A child vertex's fan starts where its parent's does; a new vertex's starts at the boundary if there is one.
+/// A child vertex's fan starts where its parent's does. A new vertex's fan starts at the boundary if there is one.
 void start_fans(const Topology& parent, const Scheme& scheme, TopologyTables& child) {
   const Index v_count = parent.vertex_count();
   const Index e_count = parent.edge_count();
@@ -131,7 +131,7 @@ void start_fans(const Topology& parent, const Scheme& scheme, TopologyTables& ch
   });
   parallel_for(e_count, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (auto e = static_cast<Index>(begin); e < end; ++e) {
-      // The half that leaves the edge point towards the end of the lower half-edge: the last side of the next child.
+      // The half that leaves the edge point towards the end of the lower half-edge is the last side of the next child.
       const Index h = parent.edge_half_edge(e);
       const Index n = parent.next(h);
       child.vertex_half_edges[v_count + e] = quads ? 4 * n + 3 : first_child(n) + 2;

@@ -5,7 +5,7 @@
 
 namespace batten {
 
-/// Throws Error(NotTriangles), naming a face, for any scheme but Catmull-Clark on other faces.
+/// Throws Error(NotTriangles), naming a face, unless the scheme is Catmull-Clark or all faces are triangles.
 void require_triangles(const Topology& topology, const Scheme& scheme);
 
 Topology child_topology(const Topology& topology, const Scheme& scheme, const Progress& progress = {});

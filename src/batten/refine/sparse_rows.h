@@ -1,4 +1,4 @@
-/// \file A matrix of few numbers a row, and its products with points and with another.
+/// \file A sparse matrix stored by rows, and its products with points and with another matrix.
 #pragma once
 #include <utility>
 #include <vector>
@@ -15,7 +15,7 @@ struct SparseRows {
   Buffer<double> weights;
 
   Index count() const { return static_cast<Index>(starts.size()) - 1; }
-  /// Appends an entry to the row that end_row() will end.
+  /// Appends an entry to the current row, which end_row() ends.
   void add(Index column, double weight) {
     columns.push_back(column);
     weights.push_back(weight);
@@ -23,14 +23,14 @@ struct SparseRows {
   void end_row() { starts.push_back(static_cast<Index>(columns.size())); }
 };
 
-/// One row by itself: vertices and their weights.
+/// A single row: vertices and their weights.
 using VertexWeights = std::vector<std::pair<Index, double>>;
 
-/// Sorts by vertex and adds up the weights of each, in the order in which they stand. Zeros stay.
+/// Sorts the row by vertex and adds the weights of each vertex in the row's order. Zeros are kept.
 void merge(VertexWeights& row);
 
-/// The sum of weight * points[column] over a row. Point is a number or a vector of numbers that starts as zero. Two
-/// sums take turns, so that the processor need not wait for one addition before the next.
+/// The sum of weight * points[column] over a row. Point is a number, or a vector of numbers that is zero by default.
+/// Two alternating sums let the processor start an addition before the previous one has ended.
 template <typename Point>
 Point combine(const SparseRows& rows, Index row, const Point* points) {
   Point even{};
@@ -45,11 +45,11 @@ Point combine(const SparseRows& rows, Index row, const Point* points) {
   return even + odd;
 }
 
-/// n rows of a single 1 each, on the diagonal.
+/// The identity matrix with n rows.
 SparseRows identity_rows(Index count);
 
-/// The matrix product; `right` has `columns` columns. Columns of a row ascend, each stands once, and zeros are left
-/// out. O(multiplications), and O(columns) of memory.
+/// The matrix product; `right` has `columns` columns. The columns of each row ascend, none is repeated, and zeros are
+/// left out. O(multiplications) time, O(columns) extra memory.
 SparseRows product(const SparseRows& left, const SparseRows& right, Index columns);
 
 }  // namespace batten

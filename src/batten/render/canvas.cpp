@@ -33,7 +33,7 @@ struct DestroyContext {
 }  // namespace
 
 Ink ink_of(const Color& color) {
-  // The very byte that a picture has of this colour.
+  // The byte that a picture stores for this colour.
   const auto byte = [](float linear) { return static_cast<double>(std::lround(255.0F * encode_srgb(linear))) / 255.0; };
   return {byte(color[0]), byte(color[1]), byte(color[2])};
 }
@@ -66,7 +66,7 @@ struct Canvas::Parts {
     cairo_set_line_join(context.get(), CAIRO_LINE_JOIN_ROUND);
   }
 
-  /// Cairo keeps its first failure; everything after it does nothing.
+  /// Throws the first failure that Cairo recorded; after it, Cairo ignores all drawing.
   void check() const {
     const cairo_status_t status = cairo_status(context.get());
     if (status != CAIRO_STATUS_SUCCESS)

@@ -1,4 +1,4 @@
-/// \file Lines, areas and text on a picture or in an SVG file, by Cairo.
+/// \file Draws lines, areas and text with Cairo, on a picture or in an SVG file.
 #pragma once
 #include <memory>
 #include <string>
@@ -40,10 +40,10 @@ struct TextStyle {
 struct Stroke {
   double width;
   Ink ink;
-  double dash = 0.0;  ///< length of dashes and gaps; 0: solid
+  double dash = 0.0;  ///< the length of dashes and gaps; 0: solid
 };
 
-/// UTF-8 in DejaVu Sans, or what the system has instead; unhinted, so that text scales as lines do.
+/// Text is UTF-8 in DejaVu Sans or the system's substitute, unhinted so that it scales as lines do.
 class Canvas {
  public:
   enum class Kind {
@@ -62,13 +62,13 @@ class Canvas {
   void disc(const Spot& centre, double radius, const Ink& ink);
   /// `at` is on the baseline.
   void text(const Spot& at, const std::string& words, const TextStyle& style);
-  /// Its top left pixel goes to (left, top).
+  /// Puts the picture's top left pixel at (left, top).
   void paste(const Picture& picture, int left, int top);
   double text_width(const std::string& words, const TextStyle& style) const;
 
-  /// What was drawn; not of Kind::Svg.
+  /// The pixels. Not for Kind::Svg.
   Picture picture() const;
-  /// The file's bytes; of Kind::Svg. Nothing can be drawn afterwards.
+  /// The file's bytes, for Kind::Svg. Nothing can be drawn afterwards.
   Buffer<unsigned char> svg();
 
  private:

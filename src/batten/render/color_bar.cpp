@@ -11,7 +11,7 @@ namespace {
 
 using namespace render_detail;
 
-constexpr int kStripes = 256;  // of one colour each
+constexpr int kStripes = 256;  // each of one colour
 
 struct Words {
   std::string text;
@@ -19,7 +19,7 @@ struct Words {
   TextStyle style;
 };
 
-/// Where everything stands, in pixels; the width is known when all words are.
+/// The positions of all parts in pixels. The width is known once all labels are known.
 class BarLayout {
  public:
   BarLayout(const ColorScale& scale, int height, const PictureStyle& style)
@@ -45,7 +45,7 @@ class BarLayout {
     const double left = kEdge * unit_;
     const double step = (bottom_ - top_) / kStripes;
     for (int i = 0; i < kStripes; ++i) {
-      // Each stripe reaches under the next, so that no seam shows.
+      // Each stripe extends under the next one to hide seams.
       const double y = top_ + i * step;
       canvas.rectangle({left, y}, {kBar * unit_, std::min(step + 1.0, bottom_ - y)},
                        ink_of(map_color(scale_.map, (kStripes - 1 - i) / (kStripes - 1.0))));

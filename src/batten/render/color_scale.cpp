@@ -11,7 +11,7 @@
 namespace batten {
 namespace {
 
-// Every eighth of viridis, and every sixteenth of the cool to warm map, in bytes of sRGB.
+// Every eighth colour of viridis and every sixteenth of the cool to warm map, as sRGB bytes.
 constexpr unsigned char kSequential[][3] = {{68, 1, 84},    {71, 44, 122},  {59, 81, 139},
                                             {44, 113, 142}, {33, 144, 141}, {39, 173, 129},
                                             {92, 200, 99},  {170, 220, 50}, {253, 231, 37}};
@@ -34,7 +34,7 @@ Color between(const unsigned char (&table)[N][3], double position) {
   return color;
 }
 
-/// The number that a share of all is below.
+/// The number below which this share of the numbers lies.
 double quantile(std::vector<double>& values, double share) {
   const auto place = static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(values.size() - 1)));
   std::nth_element(values.begin(), values.begin() + place, values.end());
@@ -94,7 +94,7 @@ ColorScale fit_color_scale(const Eigen::Ref<const Scalars>& values, const ScaleR
     scale.low = request.middle - reach;
     scale.high = request.middle + reach;
   }
-  // A bar needs a length: rounding is no difference.
+  // The bar must have a length. Differences due to rounding do not count.
   const double size = std::max({std::abs(scale.low), std::abs(scale.high), std::numeric_limits<double>::min()});
   if (!(scale.high - scale.low > 1e-9 * size)) {
     const double reach = request.whole || scale.high == 0.0 ? 1.0 : 0.5 * std::abs(scale.high);

@@ -66,7 +66,7 @@ struct Box {
   }
 };
 
-/// Only vertices that a face uses count: files hold strays.
+/// Only vertices of faces count, because files contain stray vertices.
 Box box_of_faces(const Mesh& mesh) {
   return parallel_reduce<Box>(
       static_cast<std::ptrdiff_t>(mesh.face_vertices.size()), Box(),
@@ -87,7 +87,8 @@ std::vector<bool> drawn_faces(const Mesh& mesh) {
   return drawn;
 }
 
-/// Where a fan starts: at the first corner, but at the second for a quad that folds over the diagonal from the first.
+/// Where a face's fan starts: at the first corner, or at the second of a quad that folds over the diagonal from the
+/// first.
 Index fan_start(const Mesh& mesh, const Buffer<Vec>& points, Index face) {
   if (mesh.face_size(face) != 4) return 0;
   const Index* v = mesh.face_vertices.data() + mesh.face_offsets[face];
@@ -97,7 +98,7 @@ Index fan_start(const Mesh& mesh, const Buffer<Vec>& points, Index face) {
   return normal(0, 1, 2).dot(normal(0, 2, 3)) < 0.0F && normal(1, 2, 3).dot(normal(1, 3, 0)) > 0.0F ? 1 : 0;
 }
 
-/// The mesh's corners of each fan triangle.
+/// The corners of the mesh for each triangle of the fans.
 Buffer<std::uint32_t> fan_corners(const Mesh& mesh, const Buffer<Vec>& points) {
   const std::vector<bool> drawn = drawn_faces(mesh);
   Buffer<Index> first(static_cast<std::size_t>(mesh.face_count()) + 1);
@@ -156,7 +157,7 @@ Frame frame_of(const std::vector<const Scene*>& scenes) {
   Frame frame;
   frame.lowest = box.lowest.matrix().transpose();
   frame.highest = box.highest.matrix().transpose();
-  // Halves first: the sum of two large doubles may overflow.
+  // Halving first avoids overflow of the sum of two large doubles.
   frame.centre = 0.5 * frame.lowest + 0.5 * frame.highest;
   const double radius = (0.5 * frame.highest - 0.5 * frame.lowest).stableNorm();
   frame.scale = radius > 0.0 ? 1.0 / radius : 1.0;

@@ -1,4 +1,4 @@
-/// \file What the rays found at each pixel, before light and shadow are put together.
+/// \file The results of the rays at each pixel, before light and shadow are combined.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -7,25 +7,26 @@
 
 namespace batten::render_detail {
 
-/// One number a pixel. The shape's come first, means over its own samples; then the ground's.
+/// A number for each pixel. Those of the shape come first and are means over its own samples; those of the ground
+/// follow.
 enum class Plane {
-  Coverage,  ///< the share of the pixel's samples that met the shape
+  Coverage,  ///< the share of the pixel's samples that hit the shape
   NormalX,
   NormalY,
   NormalZ,
   PositionX,
   PositionY,
   PositionZ,
-  KeyRed,  ///< what the key light sends to the eye where nothing is in its way
+  KeyRed,  ///< the light that reaches the eye from the key light when nothing blocks it
   KeyGreen,
   KeyBlue,
-  AmbientRed,  ///< what the sky and the fill send
+  AmbientRed,  ///< the light from the sky and the fill light
   AmbientGreen,
   AmbientBlue,
-  KeySeen,    ///< the share of the key light that is not hidden
-  KeyWeight,  ///< the share of samples that know: 0 where the surface turns away from it
+  KeySeen,    ///< the share of the key light that is not blocked
+  KeyWeight,  ///< the share of samples for which it is known: 0 where the surface faces away from the light
   SkySeen,
-  GroundWeight,  ///< the share of the pixel's samples that met the ground near the shape
+  GroundWeight,  ///< the share of the pixel's samples that hit the ground near the shape
   GroundKeySeen,
   GroundSkySeen,
   Count
@@ -48,11 +49,11 @@ struct Layers {
   }
 };
 
-/// Smooths KeySeen, SkySeen and the ground's. `pixel` is a pixel's size in space, in the frame's unit.
+/// Smooths KeySeen, SkySeen and the ground's planes. `pixel` is the size of a pixel in space, in the frame's unit.
 ///
-/// The pattern of light rays is spread over blocks of 8x8 pixels, evenly in each square of 4x4: a box of 4x4 pixels
-/// holds next to no noise, and the second pass adds the block's other squares. Neighbours count as far as they lie in
-/// the pixel's tangent plane and face the same way. O(pixels): 16 neighbours each.
+/// The pattern of light rays is spread over blocks of 8x8 pixels, evenly in each square of 4x4: a box of 4x4 pixels has
+/// almost no noise, and a second pass adds the other squares of the block. Neighbours are weighted by how close they
+/// are to the pixel's tangent plane and how similar their normals are. O(pixels), with 16 neighbours each.
 void smooth_light(Layers& layers, float pixel);
 
 }  // namespace batten::render_detail

@@ -10,7 +10,7 @@
 namespace batten::render_detail {
 namespace {
 
-constexpr float kKeyRadius = 0.22F;  // tangent of the half-angle of the key's disc
+constexpr float kKeyRadius = 0.22F;  // the tangent of half of the angle of the key light's disc
 const Vec kKeyColor(1.62F, 1.52F, 1.38F);
 const Vec kSkyColor(0.37F, 0.41F, 0.47F);
 const Vec kBounceColor(0.27F, 0.24F, 0.21F);
@@ -18,17 +18,17 @@ const Vec kFillColor(0.13F, 0.15F, 0.19F);
 constexpr float kGloss = 0.15F;
 constexpr float kRim = 0.22F;
 
-/// Where the ground lies in full shadow, this much of the background is left of each colour.
+/// The share of each colour of the background that remains on the ground in full shadow.
 const Vec kGroundShadow(0.27F, 0.285F, 0.31F);
 constexpr float kGroundKeyShare = 0.55F;
 
-/// Straight up to kKnee, then a shoulder that reaches 1 at infinity.
+/// Linear up to kKnee, then a shoulder that tends to 1.
 float tone(float x) {
   constexpr float kKnee = 0.62F;
   return x < kKnee ? x : kKnee + (1.0F - kKnee) * (1.0F - std::exp((kKnee - x) / (1.0F - kKnee)));
 }
 
-/// sRGB bytes of linear values in [0, 1], by a table fine enough for the steep foot of the curve.
+/// sRGB bytes of linear values in [0, 1], from a table that is fine enough for the steep start of the curve.
 class ByteTable {
  public:
   ByteTable() : bytes_(kSteps + 1) {
@@ -45,14 +45,14 @@ class ByteTable {
   std::vector<unsigned char> bytes_;
 };
 
-/// How opaque black must be for what `left` leaves of the background beside the shape.
+/// The opacity of a black shadow that leaves the share `left` of the background beside the shape.
 float shadow_opacity(float background, float coverage, float left) {
   if (coverage >= 1.0F || background <= 0.0F) return 0.0F;
   const float kept = std::clamp(left / (1.0F - coverage), 0.0F, 1.0F);
   return (1.0F - coverage) * (1.0F - encode_srgb(background * kept) / encode_srgb(background));
 }
 
-/// The shape's colour over a black shadow, as one colour with alpha.
+/// Combines the shape's colour and the black shadow behind it into one colour with alpha.
 void set_alpha(unsigned char* pixel, float coverage, float shadow) {
   const float alpha = std::min(1.0F, coverage + shadow);
   const float share = alpha > 0.0F ? coverage / alpha : 0.0F;
@@ -63,7 +63,8 @@ void set_alpha(unsigned char* pixel, float coverage, float shadow) {
 }  // namespace
 
 Lamps::Lamps(const Camera& camera) : up(camera.world_up) {
-  // From the eye's upper left, with respect to the shape's own up. Seen from straight above, from the picture's top.
+  // The key light is at the eye's upper left with respect to the shape's own up direction, or the picture's top if seen
+  // from straight above.
   const Vec left = -camera.right;
   Vec towards = -camera.forward + up.dot(camera.forward) * up;
   if (towards.norm() < 1e-3F) towards = camera.up;
@@ -108,7 +109,7 @@ Light reflect(const Lamps& lamps, const Surfel& surfel, const Vec& direction) {
 }
 
 Vec sky_direction(const Vec& normal, float u, float v) {
-  // A frame without a branch on small numbers (Duff et al. 2017).
+  // An orthonormal frame without a branch for small components (Duff et al. 2017).
   const float sign = std::copysign(1.0F, normal.z());
   const float a = -1.0F / (sign + normal.z());
   const float b = normal.x() * normal.y() * a;
@@ -157,7 +158,7 @@ void develop(const Layers& layers, const PictureStyle& style, Picture& picture) 
       const float seen =
           kGroundKeyShare * at(Plane::GroundKeySeen, i) + (1.0F - kGroundKeyShare) * at(Plane::GroundSkySeen, i);
       unsigned char* pixel = picture.pixels.data() + channels * i;
-      float opacity = 0.0F;  // of the shadow, where viewers blend: in sRGB
+      float opacity = 0.0F;  // of the shadow; in sRGB, in which viewers blend
       for (std::size_t c = 0; c < 3; ++c) {
         const float shade = 1.0F - (1.0F - kGroundShadow[static_cast<Eigen::Index>(c)]) * (1.0F - seen);
         const float left = 1.0F - coverage - ground * (1.0F - shade);
@@ -178,17 +179,17 @@ void develop(const Layers& layers, const PictureStyle& style, Picture& picture) 
 
 Vec zebra_albedo(const Lamps& lamps, const Vec& normal, const Vec& towards) {
   constexpr float kBands = 10.0F;
-  constexpr float kEdge = 0.06F;  // of a band: its soft edge
+  constexpr float kEdge = 0.06F;  // the soft edge of a band
   constexpr float kGrazing = 0.22F;
   const Vec dark_paint(0.012F, 0.020F, 0.045F);
   const Vec light_paint(0.62F, 0.60F, 0.55F);
   const Vec mirrored = towards - 2.0F * normal.dot(towards) * normal;
-  // Bands of equal width in the angle from an axis that leans to the side: no pole in the middle of the picture.
+  // Bands of equal width in the angle from a slanted axis, so that no pole is in the middle of the picture.
   const float angle = std::acos(std::clamp(mirrored.dot(lamps.zebra_axis), -1.0F, 1.0F));
   const float place = kBands * angle / std::numbers::pi_v<float>;
-  const float inside = std::abs(2.0F * (place - std::floor(place)) - 1.0F);  // 1 at the middle of a dark band
+  const float inside = std::abs(2.0F * (place - std::floor(place)) - 1.0F);  // 1 in the middle of a dark band
   const float t = std::clamp((inside - 0.5F) / kEdge + 0.5F, 0.0F, 1.0F);
-  // Towards the silhouette the bands become finer than pixels, and would sparkle.
+  // Towards the silhouette the bands become finer than a pixel and would flicker.
   const float contrast = std::min(1.0F, std::abs(normal.dot(towards)) / kGrazing);
   const float dark = 0.5F + contrast * (t - 0.5F);
   return dark * dark_paint + (1.0F - dark) * light_paint;

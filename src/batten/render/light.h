@@ -1,4 +1,4 @@
-/// \file Lamps, materials, the pattern of samples, and what becomes of light in the picture.
+/// \file Lamps, materials, sample patterns, and the final colours of the picture.
 #pragma once
 #include <cstdint>
 
@@ -7,19 +7,19 @@
 
 namespace batten::render_detail {
 
-/// What is seen through one sample.
+/// What one sample sees.
 struct Surfel {
   Vec position;
-  Vec origin;     ///< where its shadow rays start: off the facets, on the round surface that the normals describe
-  Vec normal;     ///< for shading; on the eye's side
+  Vec origin;  ///< the start of its shadow rays: not on the facets but on the round surface that the normals describe
+  Vec normal;  ///< for shading; on the eye's side
   Vec geometric;  ///< of the facet; on the eye's side
   Vec albedo;
-  float gloss = 1.0F;  ///< of the usual gloss
+  float gloss = 1.0F;  ///< relative to the usual gloss
 };
 
 struct Lamps {
-  Vec key;       ///< towards it
-  Vec key_side;  ///< spans its disc with key_rise
+  Vec key;       ///< the direction of the key light
+  Vec key_side;  ///< spans the light's disc together with key_rise
   Vec key_rise;
   Vec fill;
   Vec up;
@@ -27,7 +27,7 @@ struct Lamps {
 
   explicit Lamps(const Camera& camera);
 
-  /// The share of the key's disc above a surface, times the cosine.
+  /// The share of the key light's disc that is above a surface, times the cosine.
   float key_cosine(const Vec& normal) const;
   Vec key_direction(float u, float v) const;
 };
@@ -37,24 +37,24 @@ struct Light {
   Vec ambient;
 };
 
-/// Diffuse and a soft gloss, towards -direction.
+/// Diffuse reflection and a soft gloss in the direction -direction.
 Light reflect(const Lamps& lamps, const Surfel& surfel, const Vec& direction);
 
-/// Cosine-weighted around the normal, for (u, v) in the unit square.
+/// A cosine-weighted direction around the normal for (u, v) in the unit square.
 Vec sky_direction(const Vec& normal, float u, float v);
 
-/// Point `i` of a sequence of which each run of 4^k from a multiple of 4^k is spread evenly over the unit square
-/// (Sobol's first two dimensions).
+/// Point `i` of a sequence in which each run of 4^k points, starting at a multiple of 4^k, is spread evenly over the
+/// unit square (Sobol's first two dimensions).
 Eigen::Vector2f spread_point(std::uint32_t i);
 
-/// How much the ground takes a shadow, at a distance from the shape's centre: 1 near it, 0 from kGroundEnd on.
+/// The strength of a shadow on the ground by distance from the shape's centre: 1 near it, 0 from kGroundEnd on.
 inline constexpr float kGroundEnd = 3.6F;
 float ground_share(float distance);
 
-/// Puts the layers together.
+/// Combines the layers into a picture.
 void develop(const Layers& layers, const PictureStyle& style, Picture& picture);
 
-/// Of the surface that mirrors bands of light and dark, for rays along `towards`.
+/// The colour of a surface that mirrors light and dark bands, for rays along `towards`.
 Vec zebra_albedo(const Lamps& lamps, const Vec& normal, const Vec& towards);
 
 }  // namespace batten::render_detail

@@ -9,11 +9,12 @@
 namespace batten::render_detail {
 namespace {
 
-// Faces that meet at less than 34 degrees share their normals, at more than 48 none of them. In between they share in
-// part: scans have many edges near 40 degrees, and a sharp limit would draw a saw along them.
+// Faces that meet at less than 34 degrees share their normals; those that meet at more than 48 degrees share nothing.
+// In between they share a part, because scans have many edges near 40 degrees, along which a sharp limit would draw a
+// zigzag.
 constexpr float kSharedCosine = 0.8290376F;
 constexpr float kSplitCosine = 0.6691306F;
-constexpr float kHalfSharedCosine = 0.9563048F;  // of 17 degrees: any two within it of a third meet at less than 34
+constexpr float kHalfSharedCosine = 0.9563048F;  // of 17 degrees: two faces within it of a third meet at less than 34
 constexpr int kMostSteps = 32;
 
 float shared(float cosine) {
@@ -31,7 +32,7 @@ Vec face_normal(const Mesh& mesh, const Buffer<Vec>& points, Index face) {
   return unit(polygon_normal<Vec>(mesh.face_size(face), [&](Index i) { return points[v[i]]; }));
 }
 
-/// The faces' corners at each vertex: vertex v has corners[offsets[v]] to corners[offsets[v + 1]].
+/// The corners of each vertex: vertex v has corners[offsets[v]] to corners[offsets[v + 1]].
 struct Incidence {
   Buffer<Index> offsets;
   Buffer<Index> corners;
@@ -50,7 +51,7 @@ Incidence incidence_of(const Mesh& mesh) {
     end += offset;
     offset = end;
   }
-  // Backwards, so that each vertex's corners come in the mesh's order and its offset ends at their beginning.
+  // Filling backwards keeps each vertex's corners in the mesh's order and leaves its offset at their beginning.
   for (Index f = mesh.face_count() - 1; f >= 0; --f) {
     for (Index c = mesh.face_offsets[f + 1] - 1; c >= mesh.face_offsets[f]; --c) {
       incidence.corners[--incidence.offsets[mesh.face_vertices[c]]] = c;
@@ -60,14 +61,14 @@ Incidence incidence_of(const Mesh& mesh) {
   return incidence;
 }
 
-/// One vertex at a time: its corners' weighted face normals, gathered by the runs of faces that meet smoothly.
+/// Processes one vertex: gathers its corners' weighted face normals by runs of faces that meet smoothly.
 class VertexFan {
  public:
   VertexFan(const Mesh& mesh, const Incidence& incidence, const Buffer<Vec>& points, const Buffer<Vec>& face_normals)
       : mesh_(mesh), incidence_(incidence), points_(points), face_normals_(face_normals) {}
 
-  /// The vertex's normal goes to normals[vertex]; where its faces do not all meet smoothly, also each corner's to
-  /// normals[vertex_count + corner], and the result is true.
+  /// Stores the vertex's normal in normals[vertex]. If its faces do not all meet smoothly, also stores each corner's in
+  /// normals[vertex_count + corner] and returns true.
   bool process(Index vertex, Buffer<Vec>& normals) {
     begin_ = incidence_.offsets[vertex];
     size_ = incidence_.offsets[vertex + 1] - begin_;
@@ -110,8 +111,8 @@ class VertexFan {
     float shared = 0.0F;
   };
 
-  /// Fills links_: what lies beyond a corner's two edges. Corners that share an edge stand together once the edges are
-  /// sorted. False where every link shares all.
+  /// Fills links_, the corners beyond each corner's two edges. After sorting the edges, corners that share one are
+  /// adjacent. Returns false if every link shares everything.
   bool find_neighbours() {
     links_.assign(static_cast<std::size_t>(size_), {});
     edges_.clear();
@@ -133,7 +134,8 @@ class VertexFan {
     return any_split;
   }
 
-  /// The normals of the faces around, each weighted by the product of what the edges up to it share, by the better way.
+  /// The sum of the surrounding normals, each weighted by the product of what the edges up to it share, in the better
+  /// of the two directions.
   Vec corner_normal(Index i) {
     reached_.assign(1, i);
     shares_[i] = 1.0F;

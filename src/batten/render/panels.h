@@ -1,4 +1,4 @@
-/// \file Pictures side by side: before and after, a picture and its colour bar.
+/// \file Pictures side by side, such as before and after, or a picture and its colour bar.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,11 +10,11 @@ namespace batten {
 /// One picture of a row.
 struct Panel {
   Picture picture;
-  std::string caption;  ///< at the foot of the picture, over what it shows there; empty for none
+  std::string caption;  ///< drawn over the bottom of the picture; empty for none
 };
 
-/// From left to right, centred in height on one background.
-/// Throws Error(BadShape) for pictures without pixels, Error(BadArgument) for no panel.
+/// Puts the panels from left to right on one background, centred in height. Throws Error(BadShape) for pictures without
+/// pixels, Error(BadArgument) if there is no panel.
 Picture beside(const std::vector<Panel>& panels, const PictureStyle& style = {});
 
 }  // namespace batten

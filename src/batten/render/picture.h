@@ -9,7 +9,7 @@ namespace batten {
 
 using Color = std::array<float, 3>;  ///< linear, in [0, 1]
 
-/// 8-bit sRGB rows from the top, `channels` bytes a pixel: 3, or 4 with alpha last (not multiplied into the others).
+/// Rows of 8-bit sRGB from the top, with `channels` bytes for each pixel: 3, or 4 with alpha last (not premultiplied).
 struct Picture {
   int width = 0;
   int height = 0;
@@ -17,10 +17,10 @@ struct Picture {
   Buffer<unsigned char> pixels;
 };
 
-/// What a picture stands on.
+/// The background of a picture.
 struct PictureStyle {
   Color background{0.96F, 0.96F, 0.95F};
-  bool transparent = false;  ///< no background, and alpha in the picture; text is chosen for `background` all the same
+  bool transparent = false;  ///< no background but alpha in the picture; text is still chosen for `background`
 };
 
 /// Throws Error(BadShape) unless both sizes are above 0 and the pixels are width * height * channels bytes.
@@ -29,7 +29,7 @@ void check_picture(const Picture& picture);
 /// The bytes of an 8-bit PNG, RGB or RGBA. Throws what check_picture throws.
 Buffer<unsigned char> encode_png(const Picture& picture);
 
-/// Writes encode_png's bytes, whole or not at all (output.h). Throws Error(BadShape, FileNotWritable).
+/// Writes encode_png's bytes with write_bytes (output.h). Throws Error(BadShape, FileNotWritable).
 void write_png(const std::string& path, const Picture& picture);
 
 }  // namespace batten

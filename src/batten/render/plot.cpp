@@ -16,7 +16,7 @@ namespace {
 
 using namespace render_detail;
 
-// Okabe and Ito's colours that the colour-blind can tell apart (2008, jfly.uni-koeln.de/color), without the yellow.
+// Okabe and Ito's colours for colour-blind readers (2008, jfly.uni-koeln.de/color) without the yellow.
 constexpr std::array<unsigned, 7> kPalette{0x0072B2, 0xD55E00, 0x009E73, 0xCC79A7, 0xE69F00, 0x56B4E9, 0x000000};
 constexpr Ink kPaper = ink(0xFAFAF9);
 constexpr Ink kText = ink(0x2B2F36);
@@ -24,7 +24,7 @@ constexpr Ink kSoftText = ink(0x5B616B);
 constexpr Ink kGrid = ink(0xE1E3E6);
 constexpr Ink kAxis = ink(0x9AA0A8);
 constexpr Ink kReference = ink(0x7A808A);
-constexpr double kDotSpacing = 24.0;  // a line whose points are closer is drawn without dots
+constexpr double kDotSpacing = 24.0;  // lines with closer points are drawn without dots
 
 struct Range {
   double low = std::numeric_limits<double>::infinity();
@@ -46,7 +46,7 @@ struct Box {
   bool holds(const Box& other) const {
     return (low.array() <= other.low.array()).all() && (other.high.array() <= high.array()).all();
   }
-  /// Whether a segment passes through (Liang and Barsky's clipping).
+  /// True if a segment passes through the box (Liang and Barsky's clipping).
   bool meets(const Spot& a, const Spot& b) const {
     double enter = 0.0;
     double leave = 1.0;
@@ -65,13 +65,13 @@ struct Box {
   }
 };
 
-/// Pieces without a gap, in pixels.
+/// A line's connected pieces in pixels.
 struct DrawnLine {
   std::vector<std::vector<Spot>> pieces;
   Ink ink;
   std::optional<Box> name_place;
 
-  /// Whether the points are apart, on average along the line.
+  /// True if the points are on average farther apart than `spacing`.
   bool has_dots(double spacing) const {
     double length = 0.0;
     std::size_t gaps = 0;
@@ -238,7 +238,7 @@ class Drawing {
   /// A free place for a name beside the end of its line.
   std::optional<Box> free_place(const Spot& end, const Spot& size, const std::vector<Box>& taken) const {
     const double gap = 14 * unit_;
-    std::vector<Spot> places;  // of the box's top left corner
+    std::vector<Spot> places;  // top left corners of the box
     for (const double shift : {0.0, -0.6, 0.6, -1.2, 1.2})
       places.emplace_back(end.x() + gap, end.y() + (shift - 0.5) * size.y());
     for (const double along : {0.0, 0.5, 1.0}) {
@@ -252,7 +252,7 @@ class Drawing {
     return {};
   }
 
-  /// Beside the lines' ends. False where one has no room.
+  /// Places names beside the lines' ends. Returns false if one has no room.
   bool place_names() {
     std::vector<Box> taken;
     for (std::size_t i = 0; i < lines_.size(); ++i) {
@@ -289,7 +289,7 @@ class Drawing {
     }
   }
 
-  static constexpr double kSwatch = 56;  ///< room for a legend's line and gaps, beside the names
+  static constexpr double kSwatch = 56;  ///< the width of a legend's line and gaps, besides the names
   const Plot& plot_;
   Canvas& canvas_;
   int width_;
@@ -299,7 +299,7 @@ class Drawing {
   bool has_legend_ = false;
   Range x_;
   Range y_;
-  Box area_;  ///< what the axes enclose
+  Box area_;  ///< the area between the axes
   TextStyle title_;
   TextStyle tick_;
   TextStyle label_;

@@ -19,7 +19,7 @@ void append_bytes(png_structp png, png_bytep bytes, png_size_t count) {
 
 void flush_nothing(png_structp /*png*/) {}
 
-/// libpng leaves by longjmp when it fails, so nothing with a destructor may live in this frame.
+/// libpng reports errors with longjmp, so no object with a destructor may exist in this function.
 bool encode(png_structp png, png_infop info, const Picture& picture, Buffer<unsigned char>& out) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_write_fn(png, &out, append_bytes, flush_nothing);
@@ -27,7 +27,7 @@ bool encode(png_structp png, png_infop info, const Picture& picture, Buffer<unsi
                picture.channels == 4 ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
-  // Level 4 with one filter takes a third of the default's time for files a few percent larger.
+  // Level 4 with one filter takes a third of the default's time, and files are a few percent larger.
   png_set_compression_level(png, 4);
   png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
   png_write_info(png, info);

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kMostMarkers = 20000;
 constexpr std::size_t kMostLines = 60000;
 
-/// Each edge once, as (lower, higher).
+/// The edges as (lower, higher), without repetitions.
 std::vector<std::pair<Index, Index>> unique_edges(const Mesh& mesh) {
   std::vector<std::pair<Index, Index>> edges;
   edges.reserve(mesh.face_vertices.size());
@@ -26,7 +26,8 @@ std::vector<std::pair<Index, Index>> unique_edges(const Mesh& mesh) {
   return edges;
 }
 
-/// In the frame's unit, where the shape's diagonal is 2: a share of the mean distance between `count` points on it.
+/// A radius in the frame's unit, where the shape's diagonal is 2: a share of the mean distance between `count` points
+/// on it.
 float automatic_radius(std::size_t count, float share, float most) {
   const float spacing = 1.3F / std::sqrt(static_cast<float>(std::max<std::size_t>(count, 1)));
   return std::min(share * spacing, 2.0F * most);
@@ -81,7 +82,7 @@ Rays::Rays(const Triangles& triangles, const Overlay& overlay) : device_(rtcNewD
   if (!device_) throw Error(ErrorCode::NotAvailable, "Embree cannot start on this machine");
   surface_.reset(rtcNewScene(device_.get()));
   overlay_.reset(rtcNewScene(device_.get()));
-  // Without it a ray may slip through between two triangles and leave a light dot.
+  // Without this flag a ray may pass between two triangles and leave a light dot.
   rtcSetSceneFlags(surface_.get(), RTC_SCENE_FLAG_ROBUST);
   has_surface_ = triangles.count() > 0;
   has_overlay_ = !overlay.markers.empty() || !overlay.tubes.empty();
@@ -119,7 +120,7 @@ void Rays::intersect(const int* valid, RTCRayHit16& rays) const {
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   std::fill(rays.hit.geomID, rays.hit.geomID + kPacket, RTC_INVALID_GEOMETRY_ID);
-  // The second scene only wins where it is nearer: tfar is what the first left.
+  // The second scene only counts where it is nearer, because tfar is the first scene's distance.
   if (has_surface_) rtcIntersect16(valid, surface_.get(), &context, &rays);
   if (has_overlay_) rtcIntersect16(valid, overlay_.get(), &context, &rays);
 }

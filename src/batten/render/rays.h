@@ -8,7 +8,7 @@
 
 namespace batten::render_detail {
 
-/// Centre and radius; of a tube, two in a row are its ends.
+/// Centre and radius. Two consecutive ones are the ends of a tube.
 struct Ball {
   Vec centre;
   float radius;
@@ -19,22 +19,22 @@ struct Overlay {
   Buffer<Ball> tubes;
 };
 
-/// By the rule that RenderOptions::marker_radius states.
+/// The markers and lines, with the radii that RenderOptions::marker_radius specifies.
 Overlay overlay_of(const Scene& scene, const Frame& frame, const RenderOptions& options);
 
 enum class Part : unsigned { Surface = 0, Markers = 1, Lines = 2 };
 
 inline constexpr int kPacket = 16;
 
-/// Keeps pointers into the triangles and the overlay, which must outlive it.
+/// Refers to the triangles and the overlay, which must outlive it.
 class Rays {
  public:
   Rays(const Triangles& triangles, const Overlay& overlay);
 
-  /// The nearest hit of each lane whose `valid` is -1: geomID is a Part, or RTC_INVALID_GEOMETRY_ID.
+  /// Finds the nearest hit for each lane whose `valid` is -1. geomID is then a Part, or RTC_INVALID_GEOMETRY_ID.
   void intersect(const int* valid, RTCRayHit16& rays) const;
 
-  /// tfar becomes negative where the surface lies in the way before it.
+  /// Makes tfar negative where the surface blocks the ray before it.
   void occlude(const int* valid, RTCRay16& rays) const;
 
  private:

@@ -13,7 +13,7 @@ struct Tap {
   float weight;
 };
 
-/// One row of sums while its taps are added.
+/// The sums of one row of pixels while neighbours are added.
 struct RowSums {
   explicit RowSums(std::size_t width) : key(width), key_weight(width), sky(width), sky_weight(width) {}
   void clear() {
@@ -25,7 +25,7 @@ struct RowSums {
   std::vector<float> sky_weight;
 };
 
-/// A pixel of row y and its neighbours of row `other`, `shift` to the right.
+/// The pixels of row y and their neighbours in row `other`, `shift` to the right.
 struct Neighbours {
   int y;
   int other;
@@ -33,7 +33,7 @@ struct Neighbours {
   float weight;
 };
 
-/// Adds neighbours weighted by nearness to the tangent plane and likeness of normals.
+/// Adds neighbours weighted by closeness to the tangent plane and similarity of normals.
 void add_shape(const Layers& layers, const Neighbours& n, float inverse_reach, RowSums& sums) {
   const float* nx = layers.row(Plane::NormalX, n.y);
   const float* ny = layers.row(Plane::NormalY, n.y);
@@ -91,7 +91,7 @@ void add_ground(const Layers& layers, const Neighbours& n, RowSums& sums) {
   }
 }
 
-/// Second buffers of the planes that change.
+/// The second buffers of the planes that change.
 struct Results {
   explicit Results(std::size_t size) : key(size), key_weight(size), sky(size), ground_key(size), ground_sky(size) {}
   Buffer<float> key;
@@ -126,7 +126,7 @@ void smooth_once(Layers& layers, Results& results, Direction direction, const st
           for_taps(layers, y, direction, taps, [&](const Neighbours& n) { add_shape(layers, n, 1.0F / reach, sums); });
           divide(sums.key, sums.key_weight, layers.row(Plane::KeySeen, y), &results.key[start]);
           divide(sums.sky, sums.sky_weight, layers.row(Plane::SkySeen, y), &results.sky[start]);
-          // What a pixel learnt from its neighbours it may pass on.
+          // The next pass may use values that a pixel took from its neighbours.
           divide(sums.key_weight, sums.sky_weight, layers.row(Plane::KeyWeight, y), &results.key_weight[start]);
           sums.clear();
           for_taps(layers, y, direction, taps, [&](const Neighbours& n) { add_ground(layers, n, sums); });
@@ -145,7 +145,7 @@ void smooth_once(Layers& layers, Results& results, Direction direction, const st
 }  // namespace
 
 void smooth_light(Layers& layers, float pixel) {
-  // Half weights at the ends: four pixels' worth, centred.
+  // The end weights are halves: the width of four pixels, centred.
   const std::vector<Tap> box = {{-2, 0.5F}, {-1, 1.0F}, {0, 1.0F}, {1, 1.0F}, {2, 0.5F}};
   const std::vector<Tap> wide = {{-4, 0.5F}, {0, 1.0F}, {4, 0.5F}};
   Results results(layers.plane(Plane::KeySeen).size());

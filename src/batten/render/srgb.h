@@ -1,4 +1,4 @@
-/// \file From light to the numbers of a picture and back (IEC 61966-2-1).
+/// \file Conversion between linear light and sRGB (IEC 61966-2-1).
 #pragma once
 #include <cmath>
 

@@ -29,7 +29,7 @@ std::string superscript(int number) {
 
 std::string power_of_ten(int exponent) { return exponent == 0 ? "1" : "10" + superscript(exponent); }
 
-/// The power of ten of a number's first digit, after rounding to `digits`.
+/// The power of ten of a number's first digit after rounding to `digits`.
 int exponent_of(double value, int digits) {
   char buffer[64];
   std::snprintf(buffer, sizeof buffer, "%.*e", digits - 1, value);

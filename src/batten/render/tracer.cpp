@@ -7,20 +7,20 @@
 namespace batten::render_detail {
 namespace {
 
-constexpr float kLift = 2e-4F;     // off the surface, before a shadow ray starts
-constexpr float kSkyReach = 0.9F;  // what is farther than this hides no sky
+constexpr float kLift = 2e-4F;     // the distance from the surface at which shadow rays start
+constexpr float kSkyReach = 0.9F;  // objects beyond this distance do not block the sky
 constexpr float kGroundSkyReach = 0.6F;
 constexpr int kLevelColors = 1024;
-// A surface that faces the lights shows the very colours of its bar.
+// With this albedo, a surface that faces the lights has exactly the colours of its bar.
 constexpr float kDataAlbedo = 0.66F;
 constexpr float kDataGloss = 0.25F;
-constexpr int kFrame = 8;  // pixels at the picture's edge that are background exactly, whatever the smoothing
-constexpr float kEverywhere = 100.0F;  // beyond anything inside the unit sphere or near it
+constexpr int kFrame = 8;  // pixels at the picture's edge that are exactly the background, whatever the smoothing does
+constexpr float kEverywhere = 100.0F;  // beyond everything inside or near the unit sphere
 
 Vec to_vec(const Color& color) { return {color[0], color[1], color[2]}; }
 
-/// Moves a point of a facet towards the round surface that its corners' normals describe, where that lies outside: the
-/// shadow of the facets' own corners stays off the terminator (Hanika 2021).
+/// Moves a point of a facet towards the round surface that its corners' normals describe, if that is outside. This
+/// keeps shadows of the facets' own corners off the terminator (Hanika 2021).
 Vec round_origin(const Vec& point, const std::array<Vec, 3>& corners, const std::array<Vec, 3>& normals,
                  const Vec& weights) {
   Vec shift = Vec::Zero();
@@ -31,9 +31,9 @@ Vec round_origin(const Vec& point, const std::array<Vec, 3>& corners, const std:
   return point + shift;
 }
 
-constexpr int kBlock = 8;  // pixels, in each direction, that the pattern of light rays is spread over
+constexpr int kBlock = 8;  // the pattern of light rays covers a block of so many pixels in each direction
 
-/// The place of pixel (x, y) in its block, so that each square of 2x2, and of 4x4, has consecutive places.
+/// The index of pixel (x, y) in its block. The indices of each square of 2x2 and of 4x4 are consecutive.
 int block_place(int x, int y) {
   int place = 0;
   for (int bit = 0; (1 << bit) < kBlock; ++bit) place |= ((x >> bit & 1) | (y >> bit & 1) << 1) << 2 * bit;
@@ -50,22 +50,22 @@ struct PixelSums {
   }
 };
 
-/// A point that waits for its light rays.
+/// A point for which light rays are still to be traced.
 struct Shade {
   Vec origin;
   Vec normal;
   Vec geometric;
   int pixel;
-  int pattern;         ///< row of the pattern
-  float ground_share;  ///< negative: the shape
+  int pattern;         ///< the row of the pattern
+  float ground_share;  ///< negative for the shape
 };
 
-/// Sixteen rays that only ask whether something is in their way.
+/// Sixteen rays that only determine whether something blocks them.
 class LightPacket {
  public:
   explicit LightPacket(const Rays& rays) : rays_(rays) {}
 
-  /// Calls seen(shade, whether nothing is in the way) for all of a packet once it is full.
+  /// When the packet is full, calls seen(shade, unblocked) for each of its rays.
   template <typename Seen>
   void add(const Shade& shade, const Vec& towards, float reach, const Seen& seen) {
     const Vec origin = shade.origin + kLift * shade.geometric;
@@ -137,7 +137,7 @@ Tracer::Tracer(const Scene& scene, const RenderOptions& options, const Triangles
       level_colors_.push_back(to_vec(map_color(scene.scale.map, i / (kLevelColors - 1.0))));
     level_colors_.push_back(to_vec(map_color(scene.scale.map, std::numeric_limits<double>::quiet_NaN())));
   }
-  // A grid turned so that no two samples share a row or a column of the pixel.
+  // A rotated grid, in which no two samples share a row or a column of the pixel.
   const float n = static_cast<float>(options.samples);
   for (int j = 0; j < options.samples; ++j) {
     for (int i = 0; i < options.samples; ++i) {
@@ -279,7 +279,7 @@ int Tracer::pattern_row(const Square& square, std::size_t sample) const {
 }
 
 void Tracer::trace_light_rays(Square& square) const {
-  // Points with the same row of the pattern send their rays the same way: packets of those stay together.
+  // Points with the same row of the pattern send their rays in the same direction. Packets of such points are coherent.
   std::vector<int> offsets(pattern_.size() + 1, 0);
   for (const Shade& shade : square.shades) ++offsets[static_cast<std::size_t>(shade.pattern) + 1];
   for (std::size_t i = 1; i < offsets.size(); ++i) offsets[i] += offsets[i - 1];
@@ -312,7 +312,7 @@ void Tracer::trace_light_rays(Square& square) const {
   for (const Shade* shade : order) {
     const Eigen::Vector2f& point = pattern_[static_cast<std::size_t>(shade->pattern)];
     Vec towards = sky_direction(shade->normal, point.x(), point.y());
-    // Under the facet's plane there is only the facet: the ray is mirrored to the outside.
+    // Below the facet's plane there is only the facet, so the ray is mirrored to the outside.
     const float inside = std::min(0.0F, towards.dot(shade->geometric));
     towards -= 2.0F * inside * shade->geometric;
     packet.add(*shade, towards, shade->ground_share >= 0.0F ? kGroundSkyReach : kSkyReach, sky_seen);
@@ -350,7 +350,7 @@ Surfel Tracer::surface_surfel(unsigned triangle, float u, float v, const Vec& to
   surfel.geometric *= facing;
   const float length = surfel.normal.norm();
   surfel.normal = length > 0.0F ? Vec(surfel.normal / length) : surfel.geometric;
-  // Given normals may point either way.
+  // The given normals may point either way.
   const float side = surfel.normal.dot(surfel.geometric) < 0.0F ? -1.0F : 1.0F;
   surfel.normal *= side;
   if (zebra_) surfel.albedo = zebra_albedo(lamps_, surfel.normal, towards);

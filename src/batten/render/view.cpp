@@ -19,7 +19,7 @@ constexpr double kFieldOfView = 30.0 * kRadians;
 constexpr double kFill = 0.85;
 constexpr float kMargin = 1e-3F;
 
-/// Calls visit(point) for what the frame was made of, at most about `limit` points of each kind.
+/// Calls visit(point) for the points that the frame encloses, at most about `limit` of each kind.
 template <typename Visit>
 void visit_points(const Scenes& scenes, std::size_t limit, const Visit& visit) {
   for (const Scene* scene : scenes) {
@@ -38,7 +38,7 @@ double turn(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
-/// Counter-clockwise, by Andrew's monotone chain.
+/// The hull counter-clockwise, by Andrew's monotone chain.
 std::vector<Vector2d> convex_hull(std::vector<Vector2d> points) {
   std::sort(points.begin(), points.end(),
             [](const Vector2d& a, const Vector2d& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); });
@@ -69,7 +69,7 @@ bool contains(const std::vector<Vector2d>& hull, const Vector2d& point) {
   return hull.size() > 2;
 }
 
-/// The share of the floor plan that the shape's foot takes, or 0 where the shape would topple.
+/// The area of the shape's foot as a share of the floor plan, or 0 if the shape would fall over.
 double steadiness(const std::vector<Vector3d>& points, int axis) {
   double lowest = std::numeric_limits<double>::infinity();
   double highest = -lowest;
@@ -90,7 +90,7 @@ double steadiness(const std::vector<Vector3d>& points, int axis) {
   return whole > 0.0 && contains(base, centre) ? area(base) / whole : 0.0;
 }
 
-/// Directions of the shape's own right, back and up; the eye stands in front, where `back` points away from it.
+/// The shape's own right, back and up. The eye is in front, and `back` points away from it.
 struct Axes {
   Vector3d right;
   Vector3d back;
@@ -144,7 +144,7 @@ Vector3d asked_view(const RenderOptions& options, const Frame& frame, const Axes
   return view.stableNormalized();
 }
 
-/// Rows: the picture's right and up, and the direction to the eye.
+/// The rows are the picture's right and up, and the direction to the eye.
 Eigen::Matrix3d view_axes(const Vector3d& view, const Axes& axes) {
   // Seen from straight above or below, the shape's back is at the top of the picture.
   const bool vertical = view.cross(axes.up).norm() < 1e-6;
@@ -156,7 +156,7 @@ Eigen::Matrix3d view_axes(const Vector3d& view, const Axes& axes) {
   return to_view;
 }
 
-/// How far the shape reaches into the frustum's four sides: right, left, top, bottom.
+/// How far the shape extends towards the frustum's four sides: right, left, top, bottom.
 Eigen::Array4d reach_of(const Scenes& scenes, const Frame& frame, const Eigen::Matrix3d& to_view,
                         const Vector2d& tangents) {
   Eigen::Array4d reach = Eigen::Array4d::Constant(-std::numeric_limits<double>::infinity());
@@ -176,7 +176,7 @@ Vector2d tangents_of(const RenderOptions& options) {
 std::array<double, 3> to_array(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 Vector3d to_vector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
-constexpr double kNearest = 0.1;  // a single point gives no distance of its own
+constexpr double kNearest = 0.1;  // for a single point, which determines no distance
 
 }  // namespace
 
@@ -193,8 +193,8 @@ UpAxis resolve_up(const Scenes& scenes, const Frame& frame, UpAxis asked) {
   return on_y > 1.2 * on_z ? UpAxis::Y : UpAxis::Z;
 }
 
-/// As near as can be: each side of the frustum touches a point, or the two sides of the tighter direction do and the
-/// other direction is centred.
+/// The closest viewpoint at which everything fits: each side of the frustum touches a point, or the two sides of the
+/// tighter direction do and the other direction is centred.
 Viewpoint fitted_viewpoint(const Scenes& scenes, const RenderOptions& options) {
   const Frame frame = frame_of(scenes);
   const UpAxis up = resolve_up(scenes, frame, options.up);
@@ -249,7 +249,7 @@ Camera camera_of(const Scene& scene, const Frame& frame, const RenderOptions& op
   camera.tangent_x = static_cast<float>(tangents.x());
   camera.tangent_y = static_cast<float>(tangents.y());
   camera.world_up = axes.up.cast<float>();
-  // A hair below the shape, so that a flat sheet lies on the ground rather than in it.
+  // Slightly below the shape, so that a flat sheet lies on the ground and not in it.
   camera.ground_height =
       static_cast<float>(((frame.lowest - frame.centre) * frame.scale).dot(axes.up.transpose())) - kMargin;
   return camera;

@@ -1,11 +1,11 @@
-/// \file Where the eye stands: the default view and the fit.
+/// \file The eye's position: the default view and the fit.
 #pragma once
 #include "batten/render/geometry.h"
 
 namespace batten::render_detail {
 
-/// In the frame's units. A pixel's ray runs from `eye` along forward + x * right + y * up, where x and y are the
-/// tangents at the picture plane, in [-tangent_x, tangent_x] and [-tangent_y, tangent_y].
+/// In the frame's unit. The ray of a pixel goes from `eye` along forward + x * right + y * up, where x and y are
+/// tangents in [-tangent_x, tangent_x] and [-tangent_y, tangent_y].
 struct Camera {
   Vec eye;
   Vec right;
@@ -13,20 +13,20 @@ struct Camera {
   Vec forward;
   float tangent_x;
   float tangent_y;
-  Vec world_up;         ///< of the scene
+  Vec world_up;         ///< the scene's up direction
   float ground_height;  ///< the lowest point along world_up
 };
 
 using Scenes = std::vector<const Scene*>;
 
-/// Y or Z, by the rule that UpAxis states.
+/// Y or Z, as UpAxis describes.
 UpAxis resolve_up(const Scenes& scenes, const Frame& frame, UpAxis asked);
 
-/// See fit_viewpoint and turntable. Throw Error(BadArgument) for a direction that is zero or not finite.
+/// See fit_viewpoint and turntable. Throws Error(BadArgument) for a direction that is zero or not finite.
 Viewpoint fitted_viewpoint(const Scenes& scenes, const RenderOptions& options);
 std::vector<Viewpoint> turned_viewpoints(const Scenes& scenes, const RenderOptions& options, int count);
 
-/// From options.viewpoint, or fitted.
+/// The camera of options.viewpoint if given, otherwise of the fitted one.
 Camera camera_of(const Scene& scene, const Frame& frame, const RenderOptions& options);
 
 }  // namespace batten::render_detail

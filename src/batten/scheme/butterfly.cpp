@@ -61,7 +61,7 @@ RingMask extraordinary_mask(int valence) {
 RingMask crease_vertex_mask(int triangles, int edge) {
   const int k = triangles;
   RingMask mask = zero_ring(k + 1);
-  if (k == 2) {  // the general formula's limit
+  if (k == 2) {  // the limit of the general formula
     mask.vertex = 0.5;
     mask.edges[1] = 0.5;
     return mask;
@@ -69,7 +69,7 @@ RingMask crease_vertex_mask(int triangles, int edge) {
   const double theta = pi / k;
   const double sine = std::sin(edge * theta);
   const double sine2 = std::sin(2 * edge * theta);
-  // sin/(1 - cos) and cos - cos 2 without cancellation, for many triangles.
+  // sin/(1 - cos) and cos - cos 2 are written so that they do not cancel when there are many triangles.
   mask.vertex = 1.0 - sine / (k * std::tan(0.5 * theta));
   const double difference = 2.0 * std::sin(1.5 * theta) * std::sin(0.5 * theta);
   const double end = 0.25 * std::cos(edge * theta) - std::sin(2 * theta) * sine2 / (4.0 * k * difference);

@@ -8,7 +8,7 @@ namespace batten {
 namespace {
 
 using std::numbers::pi;
-/// Stam and Loop's weight for edge points beside triangles, as OpenSubdiv has it.
+/// Stam and Loop's weight for edge points beside triangles, with OpenSubdiv's digits.
 constexpr double kSmoothTriangleWeight = 0.470;
 
 double loop_beta(int valence) {
@@ -53,7 +53,7 @@ RingMask opensubdiv_cross(SchemeKind kind, int k) {
   return mask;
 }
 
-/// The left eigenvector of the refined rules' ring matrix (docs/mathematics.md, Limit tangents); k >= 2.
+/// The left eigenvector of the ring's refinement matrix (docs/mathematics.md, Limit tangents), for k >= 2.
 RingMask exact_cross(SchemeKind kind, int k) {
   RingMask mask = zero_ring(k + 1, k);
   const double theta = pi / k;

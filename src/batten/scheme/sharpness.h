@@ -1,7 +1,7 @@
 /// \file How sharpness decides the rule at a vertex or an edge, and how it decays (OpenSubdiv 3.5, sdc/crease; key
 /// OSD).
 ///
-/// Sharpness is computed in float, as there, so that semi-sharp weights are the same to the last bit.
+/// Sharpness is computed in float, as OpenSubdiv does, so that semi-sharp weights agree to the last bit.
 #pragma once
 #include <span>
 
@@ -15,13 +15,13 @@ inline bool is_sharp(float sharpness) { return sharpness > 0.0F; }
 inline bool is_infinite(float sharpness) { return sharpness >= kInfiniteSharpness; }
 inline bool is_semi_sharp(float sharpness) { return is_sharp(sharpness) && !is_infinite(sharpness); }
 
-/// One level less; infinite stays infinite.
+/// The sharpness one level down: 1 less; infinite sharpness stays infinite.
 inline float subdivided_sharpness(float sharpness) {
   if (is_infinite(sharpness)) return kInfiniteSharpness;
   return sharpness > 1.0F ? sharpness - 1.0F : 0.0F;
 }
 
-/// The semi-sharp ones among the edges at a vertex.
+/// The number of semi-sharp edges at a vertex and the sum of their sharpness.
 struct SemiSharpEdges {
   float sum = 0.0F;
   int count = 0;
@@ -36,12 +36,12 @@ inline SemiSharpEdges semi_sharp_edges(std::span<const float> around) {
   return edges;
 }
 
-/// Sharpness of the child, at one end, of the edge whose sharpness is `edge`; `around` are all edges at that end.
-/// Chaikin: 3/4 of the edge and 1/4 of the average of the other semi-sharp edges there, less one.
+/// The sharpness of an edge's child at one end. `edge` is the edge's sharpness; `around` are all edges at that end.
+/// Chaikin: 3/4 of the edge's and 1/4 of the average of the other semi-sharp edges', less one.
 inline float subdivided_sharpness(float edge, SemiSharpEdges around, CreaseMethod method) {
   if (method == CreaseMethod::Uniform || !is_semi_sharp(edge) || around.count < 2) return subdivided_sharpness(edge);
   const float others = (around.sum - edge) / static_cast<float>(around.count - 1);
-  // A quarter of a float is exact, so a compiler that fuses multiplication and addition rounds no other way.
+  // A quarter of a float is exact, so fusing the multiplication and the addition does not change the rounding.
   const float child = edge - 0.25F * edge + 0.25F * others - 1.0F;
   return is_sharp(child) ? child : 0.0F;
 }
@@ -57,7 +57,8 @@ inline VertexRule vertex_rule(float vertex, std::span<const float> edges) {
   return sharp > 2 ? VertexRule::Corner : static_cast<VertexRule>(sharp);
 }
 
-/// Weight in [0, 1] of the parent's rule where the child's differs: the average of the sharpness values that run out.
+/// The weight in [0, 1] of the parent's rule where the child's rule differs: the average of the sharpness values that
+/// reach 0 in this step.
 inline float transition_weight(float vertex, float child_vertex, std::span<const float> edges,
                                std::span<const float> child_edges) {
   float sum = 0.0F;
