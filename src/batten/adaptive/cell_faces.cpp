@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "batten/parallel/parallel.h"
+#include "batten/patch/corner_parameters.h"
 
 namespace batten {
 
@@ -32,10 +33,10 @@ Polygon polygon_of(const CellForest& forest, Index cell) {
   Polygon polygon;
   const int n = forest.corner_count();
   for (int s = 0; s < n; ++s) {
-    const Spot at = cell_corner(n, s);
+    const Spot at = corner_parameters(n, s);
     polygon.add({forest.corner(cell, s), at, false, s});
     const Index hanging = forest.hanging_vertex(cell, s);
-    if (hanging >= 0) polygon.add({hanging, middle_of(at, cell_corner(n, s + 1 == n ? 0 : s + 1)), true, s});
+    if (hanging >= 0) polygon.add({hanging, middle_of(at, corner_parameters(n, s + 1 == n ? 0 : s + 1)), true, s});
   }
   return polygon;
 }
@@ -151,7 +152,7 @@ Buffer<Index> number_side_middles(const CellForest& forest, const Buffer<Index>&
         continue;
       }
       middle = forest.vertex_count() + static_cast<Index>(faces.added.size());
-      const Spot at = middle_of(cell_corner(n, s), cell_corner(n, s + 1 == n ? 0 : s + 1));
+      const Spot at = middle_of(corner_parameters(n, s), corner_parameters(n, s + 1 == n ? 0 : s + 1));
       faces.added.push_back(forest.place(cell, at[0], at[1]));
     }
   }
@@ -230,7 +231,7 @@ CellFaces leaves_of(const CellForest& forest) {
   for (std::size_t l = 0; l < leaves.size(); ++l) {
     FaceWriter writer(forest, leaves[l], l, faces);
     for (int k = 0; k < forest.corner_count(); ++k) {
-      writer.corner(forest.corner(leaves[l], k), cell_corner(forest.corner_count(), k));
+      writer.corner(forest.corner(leaves[l], k), corner_parameters(forest.corner_count(), k));
     }
   }
   return faces;

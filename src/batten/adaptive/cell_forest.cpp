@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "batten/error.h"
+#include "batten/patch/corner_parameters.h"
 
 namespace batten {
 
@@ -32,7 +33,7 @@ CellForest::CellForest(const Topology& base, Buffer<std::uint8_t> left_out)
     for (int k = 0; k < corners_; ++k) {
       cell.corners[k] = number[base.origin(base.face_begin(f) + k)];
       if (is_left_out(f) || vertices_[cell.corners[k]].face >= 0) continue;
-      const std::array<double, 2> at = cell_corner(corners_, k);
+      const std::array<double, 2> at = corner_parameters(corners_, k);
       vertices_[cell.corners[k]] = {f, at[0], at[1]};
     }
   }
@@ -103,8 +104,8 @@ void CellForest::level_neighbours(Index cell) {
 Index CellForest::middle_vertex(Index cell, int side) {
   const Index shared = hanging_vertex(cell, side);
   if (shared >= 0) return shared;
-  const std::array<double, 2> a = cell_corner(corners_, side);
-  const std::array<double, 2> b = cell_corner(corners_, next(side));
+  const std::array<double, 2> a = corner_parameters(corners_, side);
+  const std::array<double, 2> b = corner_parameters(corners_, next(side));
   vertices_.push_back(place(cell, 0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])));
   return vertex_count() - 1;
 }
@@ -131,7 +132,7 @@ void CellForest::add_children(Index cell, const std::array<Index, 4>& middles, I
   cells_[cell].first_child = cell_count();
   for (int k = 0; k < 4; ++k) {
     const bool middle = k == corners_;
-    const std::array<double, 2> at = middle ? std::array<double, 2>{1.0, 1.0} : cell_corner(corners_, k);
+    const std::array<double, 2> at = middle ? std::array<double, 2>{1.0, 1.0} : corner_parameters(corners_, k);
     const SurfacePlace origin = place(cell, 0.5 * at[0], 0.5 * at[1]);
     Cell child{parent.face,
                cell,

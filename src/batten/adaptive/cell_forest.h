@@ -84,10 +84,4 @@ class CellForest {
   Buffer<SurfacePlace> vertices_;
 };
 
-/// The corners of a cell in its own parameters.
-inline std::array<double, 2> cell_corner(int corner_count, int number) {
-  if (corner_count == 3) return {number == 1 ? 1.0 : 0.0, number == 2 ? 1.0 : 0.0};
-  return {number == 1 || number == 2 ? 1.0 : 0.0, number >= 2 ? 1.0 : 0.0};
-}
-
 }  // namespace batten

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "batten/adaptive/cell_forest.h"
+#include "batten/patch/corner_parameters.h"
 #include "batten/scheme/masks.h"
 
 namespace batten {
@@ -158,7 +159,7 @@ void CellNets::children(const CellNet& net, std::array<CellNet, 4>& children) co
   const int corners = quads() ? 4 : 3;
   for (int k = 0; k < 4; ++k) {
     CellNet& child = children[k];
-    const std::array<double, 2> at = k == corners ? std::array<double, 2>{1.0, 1.0} : cell_corner(corners, k);
+    const std::array<double, 2> at = k == corners ? std::array<double, 2>{1.0, 1.0} : corner_parameters(corners, k);
     child.face = net.face;
     child.level = net.level + 1;
     child.turned = net.turned != (k == corners);
@@ -202,7 +203,7 @@ void CellNets::halve_ring(const CellNet& net, std::array<CellNet, 4>& children) 
 }
 
 Eigen::Vector3d CellNets::patch_corner(const CellNet& net, int corner) const {
-  const std::array<double, 2> at = cell_corner(quads() ? 4 : 3, corner);
+  const std::array<double, 2> at = corner_parameters(quads() ? 4 : 3, corner);
   const int a = static_cast<int>(at[0]);
   const int b = static_cast<int>(at[1]);
   Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();

@@ -48,7 +48,7 @@ struct Run {
   double longest() const { return mean.norm() + radius; }
 };
 
-/// The steepest slope over the plane of any two of the differences.
+/// The least area, projected on the plane, of a parallelogram of two of the differences.
 template <typename Differences>
 double least_area(const Differences& du, const Differences& dv, const Point& normal) {
   double least = std::numeric_limits<double>::infinity();

@@ -9,6 +9,7 @@
 #include "batten/error.h"
 #include "batten/mesh/segment.h"
 #include "batten/parallel/parallel.h"
+#include "batten/patch/corner_parameters.h"
 
 namespace batten {
 
@@ -122,8 +123,8 @@ void CellWalk::expand(const CellNet& net, Expansion& expansion) const {
     } else if (is_patch(next)) {
       expansion.middles[s] = nets_.patch_corner(expansion.children[next], s);
     } else {
-      const std::array<double, 2> a = cell_corner(corners_, s);
-      const std::array<double, 2> b = cell_corner(corners_, next);
+      const std::array<double, 2> a = corner_parameters(corners_, s);
+      const std::array<double, 2> b = corner_parameters(corners_, next);
       expansion.middles[s] = between(net, 0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]));
     }
   }

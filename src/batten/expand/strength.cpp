@@ -19,7 +19,7 @@ double wave_remainder(SchemeKind kind, SeriesMatrix matrix, double edges) {
 
 namespace {
 
-/// How many times one pass halves a wave.
+/// The number of halvings of a wave that one pass amounts to.
 double halvings(SchemeKind kind, SeriesMatrix matrix, int m, double edges) {
   return std::log1p(-std::pow(wave_remainder(kind, matrix, edges), m + 1)) / -std::numbers::ln2;
 }

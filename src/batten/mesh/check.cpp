@@ -23,7 +23,7 @@ class Findings {
  public:
   explicit Findings(std::size_t limit) : limit_(limit) {}
 
-  /// Calls make_message only if the message is kept.
+  /// Calls message() only if the result is kept.
   template <typename Message>
   void add(ErrorCode kind, const Message& message) {
     auto place =

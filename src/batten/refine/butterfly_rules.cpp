@@ -14,7 +14,7 @@ ButterflyVertex kind_of(const Topology& topology, const Scheme& scheme, Index ve
     return ButterflyVertex::Corner;
   }
   int edges = 0;
-  // The boundary's incoming edge is the first of no half-edge here.
+  // No outgoing half-edge belongs to the incoming edge of the boundary.
   int sharp = topology.is_boundary_vertex(vertex) ? 1 : 0;
   topology.for_each_outgoing(vertex, [&](Index h) {
     ++edges;

@@ -301,8 +301,8 @@ class ButterflyRules {
     visit(wing(wings, there + 1), kMask.wing_b);
   }
 
-  /// Takes the eight or ten points, with missing ones by reflection: a missing wing across the side s of the triangle q
-  /// s is s - q.
+  /// Takes the eight or ten points. A missing wing is found by reflection: it is the sum of the ends of the side that
+  /// it would lie across, minus the triangle's third vertex.
   template <typename Visit>
   void visit_all(HalfEdge h, HalfEdge t, const Wings& wings, const Visit& visit) const {
     const ButterflyMask& mask = masks_.stencil();

@@ -45,7 +45,7 @@ Point combine(const SparseRows& rows, Index row, const Point* points) {
   return even + odd;
 }
 
-/// The identity matrix with n rows.
+/// The identity matrix with `count` rows.
 SparseRows identity_rows(Index count);
 
 /// The matrix product; `right` has `columns` columns. The columns of each row ascend, none is repeated, and zeros are

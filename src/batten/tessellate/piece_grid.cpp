@@ -1,10 +1,12 @@
 #include "batten/tessellate/piece_grid.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "batten/limit/vertex_limit.h"
+#include "batten/patch/corner_parameters.h"
 
 namespace batten {
 
@@ -147,16 +149,16 @@ constexpr Index kManyFaces = 16;
 
 template <typename Scalar>
 void GridFiller<Scalar>::fill_cell(const Piece& piece, TileValue value, PieceGrid<Scalar>& grid) {
-  static constexpr int kQuad[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  static constexpr int kTriangle[3][2] = {{0, 0}, {1, 0}, {0, 1}};
   const int sign = piece.turned ? -1 : 1;
   const Topology& topology = pieces_.topology(piece.level);
   ConstValuesRef values = values_.at(piece.level);
   Index half_edge = piece.half_edge;
   const Index* rows = pieces_.rows(piece);
-  for (int corner = 0; corner < (quads_ ? 4 : 3); ++corner) {
-    const int* step = quads_ ? kQuad[corner] : kTriangle[corner];
-    const std::ptrdiff_t place = grid.place(piece.x + sign * step[0], piece.y + sign * step[1]);
+  const int corners = quads_ ? 4 : 3;
+  for (int corner = 0; corner < corners; ++corner) {
+    const std::array<double, 2> step = corner_parameters(corners, corner);
+    const std::ptrdiff_t place =
+        grid.place(piece.x + sign * static_cast<Index>(step[0]), piece.y + sign * static_cast<Index>(step[1]));
     if (value == TileValue::Refined) {
       for (int c = 0; c < grid.columns; ++c) grid.plane(c)[place] = static_cast<Scalar>(values(rows[corner], c));
     } else if (value == TileValue::Limit && piece.level == last_level_ && rows[corner] == last_vertex_) {
