@@ -9,7 +9,8 @@ namespace batten {
 
 namespace {
 
-constexpr Index kFewestFaces = 64;
+/// Rings of fewer are kept (kMostKeptRing), so all of them have to be walked.
+constexpr Index kFewestFaces = 512;
 /// Faces on each side of a face at its pole that count as near: its other corners' fans reach no farther where valences
 /// are 4 or 6.
 constexpr int kNear = 4;
