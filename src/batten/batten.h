@@ -36,6 +36,7 @@
 #include "batten/scheme/scheme.h"
 #include "batten/surface/curvature.h"
 #include "batten/surface/limit_surface.h"
+#include "batten/surface/quadrature.h"
 #include "batten/surface/surface_weights.h"
 #include "batten/tessellate/surface_mesh.h"
 #include "batten/tessellate/tessellator.h"

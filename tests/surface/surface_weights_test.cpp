@@ -161,5 +161,15 @@ TEST(SurfaceWeights, DoNotDependOnThreadsAndRefuseWhatIsNotThere) {
   EXPECT_EQ(weights.rows({}).rows(), 0);
 }
 
+TEST(SurfaceWeights, AreTheSameForAllPartsAtOnce) {
+  const Mesh mesh = test::with_random_tags(dodecahedron(), 4);
+  const SurfaceWeights weights(Topology(mesh), Scheme{});
+  const std::vector<SurfacePlace> places = places_of(weights.base(), true);
+  const auto all = weights.rows(places, kAllJetParts);
+  for (std::size_t p = 0; p < kAllJetParts.size(); ++p) {
+    EXPECT_EQ(Eigen::MatrixXd(all[p]), Eigen::MatrixXd(weights.rows(places, kAllJetParts[p])));
+  }
+}
+
 }  // namespace
 }  // namespace batten

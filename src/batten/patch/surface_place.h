@@ -1,6 +1,6 @@
 /// \file A place on a surface.
 #pragma once
-#include "batten/types.h"
+#include "batten/mesh/topology.h"
 
 namespace batten {
 
@@ -11,5 +11,12 @@ struct SurfacePlace {
   double u = 0.0;
   double v = 0.0;
 };
+
+/// The same place on the child of a Refinement of `base`, whose faces are all quads (refined by Catmull-Clark) or all
+/// triangles. On lines between children any of them. Exact but for rounding.
+SurfacePlace refined_place(const Topology& base, const SurfacePlace& place);
+
+/// The other way: a place of that child on `base`. Exact but for rounding.
+SurfacePlace coarser_place(const Topology& base, const SurfacePlace& place);
 
 }  // namespace batten
