@@ -1,4 +1,3 @@
-#include "batten/limit/limit_matrix.h"
 #include "batten/parallel/parallel.h"
 #include "batten/scheme/sharpness.h"
 #include "batten/tessellate/butterfly_grids.h"
@@ -7,7 +6,7 @@
 
 namespace batten {
 
-Values butterfly_grid_normals(const Topology& base, const Scheme& scheme, ConstValuesRef points, int levels) {
+LimitNormals butterfly_grid_normals(const Topology& base, const Scheme& scheme, ConstValuesRef points, int levels) {
   const TessellationLayout layout(base, false, levels);
   const GridNumbering numbering{base, layout};
   const auto face_count = layout.faces_per_face * base.face_count();
@@ -37,7 +36,7 @@ Values butterfly_grid_normals(const Topology& base, const Scheme& scheme, ConstV
   for (Index v = 0; v < base.vertex_count(); ++v) {
     if (tags.kinds[v] == ButterflyVertex::Corner) mesh.corners.push_back({v, kInfiniteSharpness});
   }
-  return limit_normals(Topology(mesh), scheme, points).vertices;
+  return limit_normals(Topology(mesh), scheme, points);
 }
 
 }  // namespace batten

@@ -1,6 +1,7 @@
 /// \file The refined points of Butterfly and Modified Butterfly, face by face of the base, without refined
 /// connectivity.
 #pragma once
+#include "batten/limit/limit_matrix.h"
 #include "batten/mesh/topology.h"
 #include "batten/progress.h"
 #include "batten/scheme/scheme.h"
@@ -16,8 +17,9 @@ template <typename Scalar>
 void fill_butterfly_grids(const Topology& base, const Scheme& scheme, ConstValuesRef control, int levels, Scalar* out,
                           const Progress& progress = {});
 
-/// Unit normals at these vertices, V'-by-3 as points; at a crease those of the first side. Through the connectivity of
-/// the refined mesh: some 200 bytes of memory a vertex.
-Values butterfly_grid_normals(const Topology& base, const Scheme& scheme, ConstValuesRef points, int levels);
+/// Unit normals at these vertices, V'-by-3 as points, and at the corners of all faces' grids, those of holes among
+/// them, in the order of the tessellation. Through the connectivity of the refined mesh: some 200 bytes of memory a
+/// vertex.
+LimitNormals butterfly_grid_normals(const Topology& base, const Scheme& scheme, ConstValuesRef points, int levels);
 
 }  // namespace batten

@@ -1,83 +1,191 @@
 #include "batten/tessellate/surface_mesh.h"
 
+#include <algorithm>
+#include <string>
 #include <utility>
 
+#include "batten/error.h"
 #include "batten/limit/limit_matrix.h"
 #include "batten/progress.h"
-#include "batten/refine/refined_mesh.h"
+#include "batten/refine/refinement.h"
+#include "batten/tessellate/butterfly_grids.h"
+#include "batten/tessellate/side_normals.h"
+#include "batten/tessellate/tessellator.h"
 
 namespace batten {
 
 namespace {
 
-/// The normals of the corners' own sides: the vertices' rows, and further ones for corners that differ.
-Attribute corner_normals(const Topology& topology, const LimitNormals& normals) {
-  Buffer<Index> rows = topology.tables().origins;
-  Index extra = 0;
-  for (std::size_t h = 0; h < rows.size(); ++h) {
-    const auto corner = static_cast<Eigen::Index>(h);
-    if (normals.corners.row(corner) != normals.vertices.row(rows[h])) rows[h] = topology.vertex_count() + extra++;
+std::span<double> numbers_of(Values& values) { return {values.data(), static_cast<std::size_t>(values.size())}; }
+std::span<double> numbers_of(Points& points) { return {points.data(), static_cast<std::size_t>(points.size())}; }
+
+Buffer<Index> offsets_of(std::size_t face_count, Index face_size) {
+  Buffer<Index> offsets(face_count + 1);
+  for (std::size_t f = 0; f <= face_count; ++f) offsets[f] = static_cast<Index>(f) * face_size;
+  return offsets;
+}
+
+/// Rows for the corners whose normal differs from that of their vertex; without corner rows where none does.
+Attribute corner_normals(const Buffer<Index>& face_vertices, const Values& at_vertices, const Values& at_corners) {
+  Buffer<Index> rows = face_vertices;
+  Buffer<Eigen::Index> differing;
+  for (std::size_t c = 0; c < rows.size(); ++c) {
+    const auto corner = static_cast<Eigen::Index>(c);
+    if (at_corners.row(corner) == at_vertices.row(rows[c])) continue;
+    rows[c] = static_cast<Index>(at_vertices.rows() + static_cast<Eigen::Index>(differing.size()));
+    differing.push_back(corner);
   }
-  Values values(normals.vertices.rows() + extra, 3);
-  values.topRows(normals.vertices.rows()) = normals.vertices;
-  for (std::size_t h = 0; h < rows.size(); ++h) {
-    if (rows[h] >= topology.vertex_count()) values.row(rows[h]) = normals.corners.row(static_cast<Eigen::Index>(h));
-  }
+  if (differing.empty()) return {"normal", Values(), {}};
+  Values values(at_vertices.rows() + static_cast<Eigen::Index>(differing.size()), 3);
+  values.topRows(at_vertices.rows()) = at_vertices;
+  values.bottomRows(static_cast<Eigen::Index>(differing.size())) = at_corners(differing, Eigen::all);
   return {"normal", std::move(values), std::move(rows)};
 }
 
-void drop_holes(const Topology& topology, Mesh& mesh) {
-  if (!topology.has_holes()) return;
-  Buffer<Index> new_face(static_cast<std::size_t>(mesh.face_count()) + 1);
-  Buffer<Index> offsets{0};
-  Index kept = 0;
+/// Control points have no normals of the surface, and a mesh without faces has no corners.
+bool is_left_out(const Attribute& attribute, const Mesh& mesh) {
+  return attribute.name == "normal" || (attribute.per_corner() && mesh.face_vertices.empty());
+}
+
+void append_normals(Values at_vertices, Attribute at_corners, Mesh& mesh) {
+  mesh.attributes.push_back({"normal", std::move(at_vertices), {}});
+  if (at_corners.per_corner()) mesh.attributes.push_back(std::move(at_corners));
+}
+
+/// The control mesh's own faces between its limit positions.
+Mesh limit_mesh(const Topology& topology, const Scheme& scheme, const Mesh& control, const Progress& progress) {
+  constexpr double kBuilt = 0.3;  // of the time
+  constexpr double kMoved = 0.5;
+  const Topology shown = with_surface_holes(topology, scheme);
+  const LimitMatrix limit(topology, scheme, {}, progress_within(progress, 0.0, kBuilt));
+  Mesh mesh;
+  Buffer<Index> drawn;  // half-edges of faces that are no holes
+  Buffer<Index> new_face;
   for (Index f = 0; f < topology.face_count(); ++f) {
-    new_face[f] = static_cast<Index>(offsets.size()) - 1;
-    if (topology.is_hole(f)) continue;
-    for (Index h = topology.face_begin(f); h < topology.face_end(f); ++h, ++kept) {
-      mesh.face_vertices[kept] = mesh.face_vertices[h];
-      for (Attribute& attribute : mesh.attributes) {
-        if (attribute.per_corner()) attribute.corner_rows[kept] = attribute.corner_rows[h];
-      }
+    new_face.push_back(mesh.face_count());
+    if (shown.is_hole(f)) continue;
+    for (Index h = topology.face_begin(f); h < topology.face_end(f); ++h) {
+      drawn.push_back(h);
+      mesh.face_vertices.push_back(topology.origin(h));
     }
-    offsets.push_back(kept);
+    mesh.face_offsets.push_back(static_cast<Index>(drawn.size()));
   }
-  new_face.back() = static_cast<Index>(offsets.size()) - 1;
-  mesh.face_vertices.resize(static_cast<std::size_t>(kept));
-  for (Attribute& attribute : mesh.attributes) {
-    if (attribute.per_corner()) attribute.corner_rows.resize(static_cast<std::size_t>(kept));
+  new_face.push_back(mesh.face_count());
+  for (const Group& group : control.groups) {
+    mesh.groups.push_back({group.keyword, group.name, new_face[group.first_face]});
   }
-  for (Group& group : mesh.groups) group.first_face = new_face[group.first_face];
-  mesh.face_offsets = std::move(offsets);
+  mesh.points = limit.apply(control.points, progress_within(progress, kBuilt, kMoved));
+  for (const Attribute& attribute : control.attributes) {
+    if (is_left_out(attribute, mesh)) continue;
+    if (!attribute.per_corner()) {
+      mesh.attributes.push_back({attribute.name, limit.apply(attribute.values), {}});
+      continue;
+    }
+    if (attribute.corner_rows.size() != static_cast<std::size_t>(topology.half_edge_count())) {
+      throw Error(ErrorCode::BadShape, "attribute '" + attribute.name + "' must have one row number per corner");
+    }
+    mesh.attributes.push_back({attribute.name, attribute.values, {}});
+    for (const Index h : drawn) mesh.attributes.back().corner_rows.push_back(attribute.corner_rows[h]);
+  }
+  LimitNormals normals =
+      limit_normals(topology, scheme, control.points, LimitMasks::Exact, progress_within(progress, kMoved, 1.0));
+  Attribute at_corners = corner_normals(mesh.face_vertices, normals.vertices, normals.corners(drawn, Eigen::all));
+  append_normals(std::move(normals.vertices), std::move(at_corners), mesh);
+  return mesh;
+}
+
+/// Where the faces of a tessellation stand among those of the control mesh.
+struct DrawnFaces {
+  Buffer<Index> of_control;  ///< drawn base faces before each control face, and their number
+  Buffer<Index> face_rank;   ///< of each base face; -1: not drawn
+};
+
+DrawnFaces drawn_faces(const Topology& topology, const Scheme& scheme, const Topology& base) {
+  const Buffer<std::uint8_t> holes = surface_holes(topology, scheme);
+  const bool same = base.half_edge_count() == topology.half_edge_count();
+  DrawnFaces faces;
+  faces.face_rank.reserve(static_cast<std::size_t>(base.face_count()));
+  Index drawn = 0;
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    faces.of_control.push_back(drawn);
+    for (Index child = same ? 1 : topology.face_size(f); child > 0; --child) {
+      faces.face_rank.push_back(!holes.empty() && holes[f] != 0 ? -1 : drawn++);
+    }
+  }
+  faces.of_control.push_back(drawn);
+  return faces;
+}
+
+/// Rows for the corners of the faces that are drawn, from those of all.
+Values corners_drawn(const Buffer<Index>& face_rank, Eigen::Index per_face, const Values& corners) {
+  Values drawn(corners.rows(), 3);
+  Eigen::Index count = 0;
+  for (std::size_t f = 0; f < face_rank.size(); ++f) {
+    if (face_rank[f] < 0) continue;
+    drawn.middleRows(per_face * count++, per_face) =
+        corners.middleRows(per_face * static_cast<Eigen::Index>(f), per_face);
+  }
+  return drawn.topRows(per_face * count);
+}
+
+void fill_points(const Topology& topology, const Scheme& scheme, const Mesh& control, const Tessellator& tessellator,
+                 const DrawnFaces& faces, int levels, Mesh& mesh) {
+  mesh.points.resize(tessellator.vertex_count(), 3);
+  if (is_interpolating(scheme.kind)) {
+    tessellator.limit<double>(control.points, numbers_of(mesh.points));
+    LimitNormals normals = butterfly_grid_normals(tessellator.base(), scheme, mesh.points, levels);
+    const Eigen::Index per_face = Eigen::Index{3} * tessellator.steps() * tessellator.steps();
+    const Values at_corners = corners_drawn(faces.face_rank, per_face, normals.corners);
+    Attribute differing = corner_normals(mesh.face_vertices, normals.vertices, at_corners);
+    return append_normals(std::move(normals.vertices), std::move(differing), mesh);
+  }
+  Values normals(tessellator.vertex_count(), 3);
+  tessellator.limit<double>(control.points, numbers_of(mesh.points), numbers_of(normals));
+  Attribute differing =
+      side_normals({topology, scheme, control.points, tessellator, faces.face_rank, mesh.face_vertices, normals});
+  append_normals(std::move(normals), std::move(differing), mesh);
 }
 
 }  // namespace
 
 Mesh surface_mesh(const Topology& topology, const Scheme& scheme, const Mesh& control, int levels,
                   const Progress& progress) {
-  constexpr double kRefined = 0.5;  // of the time
-  constexpr double kBuilt = 0.6;
-  constexpr double kMoved = 0.7;
-  RefinedMesh refined = refine_mesh(topology, scheme, control, levels, progress_within(progress, 0.0, kRefined));
-  const Scheme last = levels > 0 ? scheme.after_first_step() : scheme;
-  const LimitMatrix limit(refined.topology, last, {}, progress_within(progress, kRefined, kBuilt));
-  Mesh mesh;
-  mesh.face_offsets = std::move(refined.mesh.face_offsets);
-  mesh.face_vertices = std::move(refined.mesh.face_vertices);
-  mesh.groups = std::move(refined.mesh.groups);
-  mesh.material_libraries = std::move(refined.mesh.material_libraries);
-  mesh.points = limit.apply(refined.mesh.points, progress_within(progress, kBuilt, kMoved));
-  for (Attribute& attribute : refined.mesh.attributes) {
-    if (!attribute.per_corner()) attribute.values = limit.apply(attribute.values);
-    mesh.attributes.push_back(std::move(attribute));
+  if (levels < 0) throw Error(ErrorCode::BadArgument, "levels must not be negative");
+  require_vertex_rows(topology, control.points);
+  if (levels == 0) {
+    Mesh mesh = limit_mesh(topology, scheme, control, progress);
+    mesh.material_libraries = control.material_libraries;
+    return mesh;
   }
-  LimitNormals normals = limit_normals(refined.topology, last, refined.mesh.points, LimitMasks::Exact,
-                                       progress_within(progress, kMoved, 1.0));
-  Attribute at_corners = corner_normals(refined.topology, normals);
-  const bool sides_differ = at_corners.values.rows() > normals.vertices.rows();
-  mesh.attributes.push_back({"normal", std::move(normals.vertices), {}});
-  if (sides_differ) mesh.attributes.push_back(std::move(at_corners));
-  drop_holes(refined.topology, mesh);
+  const Tessellator tessellator(topology, scheme, levels);
+  const DrawnFaces faces = drawn_faces(topology, scheme, tessellator.base());
+  constexpr double kBuilt = 0.1;  // of the time
+  constexpr double kFaces = 0.2;
+  report_progress(progress, kBuilt);
+  Mesh mesh;
+  mesh.material_libraries = control.material_libraries;
+  mesh.face_offsets = offsets_of(static_cast<std::size_t>(tessellator.face_count()), tessellator.face_size());
+  mesh.face_vertices.resize(static_cast<std::size_t>(tessellator.face_count()) *
+                            static_cast<std::size_t>(tessellator.face_size()));
+  tessellator.faces(mesh.face_vertices);
+  const Index per_face = tessellator.steps() * tessellator.steps();
+  for (const Group& group : control.groups) {
+    mesh.groups.push_back({group.keyword, group.name, faces.of_control[group.first_face] * per_face});
+  }
+  report_progress(progress, kFaces);
+  const double share = (1.0 - kFaces) / static_cast<double>(control.attributes.size() + 1);
+  for (const Attribute& attribute : control.attributes) {
+    if (is_left_out(attribute, mesh)) continue;
+    if (attribute.per_corner()) {
+      mesh.attributes.push_back(tessellator.at_corners(attribute));
+    } else {
+      mesh.attributes.push_back({attribute.name, Values(tessellator.vertex_count(), attribute.values.cols()), {}});
+      tessellator.limit<double>(attribute.values, numbers_of(mesh.attributes.back().values));
+    }
+    report_progress(progress, kFaces + share * static_cast<double>(mesh.attributes.size()));
+  }
+  fill_points(topology, scheme, control, tessellator, faces, levels, mesh);
+  report_progress(progress, 1.0);
   return mesh;
 }
 

@@ -140,7 +140,7 @@ void Tessellator::Parts::fill_interpolating(ConstValuesRef control_values, std::
   fill_butterfly_grids(base(), scheme(), control_values, layout.levels, points.data());
   const auto rounded = [](double number) { return static_cast<Scalar>(number); };
   std::transform(points.data(), points.data() + points.size(), out.begin(), rounded);
-  const Values exact = butterfly_grid_normals(base(), scheme(), points, layout.levels);
+  const Values exact = butterfly_grid_normals(base(), scheme(), points, layout.levels).vertices;
   std::transform(exact.data(), exact.data() + exact.size(), normals.begin(), rounded);
 }
 
