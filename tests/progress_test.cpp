@@ -49,6 +49,11 @@ std::vector<Named> operations(const io_tests::TemporaryFolder& folder) {
        [](const Progress& progress) { limit_normals(topology, scheme, mesh.points, LimitMasks::Exact, progress); }},
       {"nearest points, built",
        [](const Progress& progress) { NearestPoints(topology, scheme, mesh.points, progress); }},
+      {"nearest points, moved",
+       [](const Progress& progress) {
+         static NearestPoints nearest(topology, scheme, mesh.points);
+         nearest.set_control(2.0 * mesh.points, progress);
+       }},
       {"nearest points, found",
        [](const Progress& progress) {
          static const NearestPoints nearest(topology, scheme, mesh.points);

@@ -10,87 +10,80 @@ namespace batten {
 
 namespace {
 
-/// The polynomials of a net at the places of its points: at (i, j)/n, where n is the degree.
-template <typename Net>
-void place_of(int point, double& u, double& v);
-template <>
-void place_of<QuadNet>(int point, double& u, double& v) {
-  const int row = point / 4;
-  u = (point - 4 * row) / 3.0;
-  v = row / 3.0;
+using Matrix4 = std::array<std::array<double, 4>, 4>;
+
+/// From four control points of a uniform cubic B-spline to the points of its Bezier polynomial.
+constexpr Matrix4 kFromSpline{{{1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0, 0.0},
+                               {0.0, 4.0 / 6.0, 2.0 / 6.0, 0.0},
+                               {0.0, 2.0 / 6.0, 4.0 / 6.0, 0.0},
+                               {0.0, 1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0}}};
+/// To the first and to the second half of a cubic Bezier polynomial.
+constexpr Matrix4 kFirstHalf{
+    {{1.0, 0.0, 0.0, 0.0}, {0.5, 0.5, 0.0, 0.0}, {0.25, 0.5, 0.25, 0.0}, {0.125, 0.375, 0.375, 0.125}}};
+constexpr Matrix4 kSecondHalf{
+    {{0.125, 0.375, 0.375, 0.125}, {0.0, 0.25, 0.5, 0.25}, {0.0, 0.0, 0.5, 0.5}, {0.0, 0.0, 0.0, 1.0}}};
+
+template <std::size_t kRows, std::size_t kInner, std::size_t kColumns>
+std::array<std::array<double, kColumns>, kRows> multiply(
+    const std::array<std::array<double, kInner>, kRows>& left,
+    const std::array<std::array<double, kColumns>, kInner>& right) {
+  std::array<std::array<double, kColumns>, kRows> result{};
+  for (std::size_t r = 0; r < kRows; ++r) {
+    for (std::size_t k = 0; k < kInner; ++k) {
+      for (std::size_t c = 0; c < kColumns; ++c) result[r][c] += left[r][k] * right[k][c];
+    }
+  }
+  return result;
 }
-template <>
-void place_of<TriangleNet>(int point, double& u, double& v) {
+
+/// Row i has the weights of a triangle's net at place i.
+using NetValues = std::array<std::array<double, TriangleNet::kPoints>, TriangleNet::kPoints>;
+
+/// Values at the places (i, j)/4 of a part of the triangle.
+NetValues net_values(const Placement& part) {
+  NetValues values;
   for (int j = 0; j <= 4; ++j) {
     for (int i = 0; i + j <= 4; ++i) {
-      if (TriangleNet::index(i, j) != point) continue;
-      u = i / 4.0;
-      v = j / 4.0;
+      for (int k = 0; k < TriangleNet::kPoints; ++k) {
+        std::array<Double4, TriangleNet::kPoints> unit{};
+        unit[k] = Double4{1.0, 0.0, 0.0, 0.0};
+        values[TriangleNet::index(i, j)][k] = TriangleNet::jet(unit.data(), part.u(i / 4.0), part.v(j / 4.0)).point[0];
+      }
     }
   }
+  return values;
 }
 
-void spline_weights(QuadNet /*net*/, double u, double v, JetWeights& weights) { quad_jet_weights(u, v, weights); }
-void spline_weights(TriangleNet /*net*/, double u, double v, JetWeights& weights) {
-  triangle_jet_weights(u, v, weights);
+/// The net with given values: polynomials of degree 4 follow from their values at the places. All weights are multiples
+/// of `unit`, so rounding to them takes the errors of the solution away.
+template <int kColumns>
+NetMatrix<TriangleNet, kColumns> net_of_values(const std::array<std::array<double, kColumns>, TriangleNet::kPoints>& at,
+                                               double unit) {
+  using Square = Eigen::Matrix<double, TriangleNet::kPoints, TriangleNet::kPoints, Eigen::RowMajor>;
+  using Rows = Eigen::Matrix<double, TriangleNet::kPoints, kColumns, Eigen::RowMajor>;
+  const NetValues values = net_values({});
+  const Rows solution =
+      Square(Eigen::Map<const Square>(values[0].data())).fullPivLu().solve(Rows(Eigen::Map<const Rows>(at[0].data())));
+  NetMatrix<TriangleNet, kColumns> matrix;
+  for (int r = 0; r < TriangleNet::kPoints; ++r) {
+    for (int c = 0; c < kColumns; ++c) matrix.rows[r][c] = std::round(solution(r, c) / unit) * unit;
+  }
+  return matrix;
 }
 
-/// Weights of the net's points at a place, as the jet function has them.
-template <typename Net>
-std::array<double, Net::kPoints> net_weights(double u, double v) {
-  std::array<double, Net::kPoints> weights;
-  for (int k = 0; k < Net::kPoints; ++k) {
-    std::array<Double4, Net::kPoints> unit{};
-    unit[k] = Double4{1.0, 0.0, 0.0, 0.0};
-    weights[k] = Net::jet(unit.data(), u, v).point[0];
-  }
-  return weights;
-}
-
-/// Polynomials of the degree follow from their values at the places of the net's points. All weights are multiples of
-/// `unit`, which takes the rounding away.
-template <typename Net>
-NetTables<Net> make_tables(double spline_unit, double half_unit) {
-  constexpr int kCount = Net::kPoints;
-  Eigen::MatrixXd values(kCount, kCount);
-  Eigen::MatrixXd spline(kCount, Net::kSplinePoints);
-  for (int p = 0; p < kCount; ++p) {
-    double u = 0.0;
-    double v = 0.0;
-    place_of<Net>(p, u, v);
-    const auto weights = net_weights<Net>(u, v);
-    JetWeights own;
-    spline_weights(Net(), u, v, own);
-    for (int k = 0; k < kCount; ++k) values(p, k) = weights[k];
-    for (int k = 0; k < Net::kSplinePoints; ++k) spline(p, k) = own.value[k];
-  }
-  const Eigen::FullPivLU<Eigen::MatrixXd> solver(values);
-  NetTables<Net> tables;
-  const Eigen::MatrixXd from_spline = solver.solve(spline);
-  for (int p = 0; p < kCount; ++p) {
-    for (int k = 0; k < Net::kSplinePoints; ++k)
-      tables.from_spline[p][k] = std::round(from_spline(p, k) / spline_unit) * spline_unit;
-  }
-  for (int child = 0; child < 4; ++child) {
-    const Placement part = half<Net>(child);
-    Eigen::MatrixXd at(kCount, kCount);
-    for (int p = 0; p < kCount; ++p) {
-      double u = 0.0;
-      double v = 0.0;
-      place_of<Net>(p, u, v);
-      const auto weights = net_weights<Net>(part.u(u), part.v(v));
-      for (int k = 0; k < kCount; ++k) at(p, k) = weights[k];
-    }
-    const Eigen::MatrixXd half_weights = solver.solve(at);
-    for (int p = 0; p < kCount; ++p) {
-      for (int k = 0; k < kCount; ++k)
-        tables.halves[child][p][k] = std::round(half_weights(p, k) / half_unit) * half_unit;
+SplineMatrix<TriangleNet> make_spline_matrix() {
+  std::array<std::array<double, kTrianglePatchSize>, TriangleNet::kPoints> values;
+  for (int j = 0; j <= 4; ++j) {
+    for (int i = 0; i + j <= 4; ++i) {
+      JetWeights weights;
+      triangle_jet_weights(i / 4.0, j / 4.0, weights);
+      std::copy_n(weights.value.begin(), kTrianglePatchSize, values[TriangleNet::index(i, j)].begin());
     }
   }
-  return tables;
+  return net_of_values<kTrianglePatchSize>(values, 1.0 / 24.0);
 }
 
-/// Bernstein polynomials.
+/// The cubic Bernstein polynomials.
 CubicJet bernstein_jet(double t) {
   const double s = 1.0 - t;
   return {{s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t},
@@ -100,14 +93,71 @@ CubicJet bernstein_jet(double t) {
 
 }  // namespace
 
-const NetTables<QuadNet>& quad_tables() {
-  static const NetTables<QuadNet> tables = make_tables<QuadNet>(1.0 / 36.0, 1.0 / 64.0);
-  return tables;
+void NetMatrix<QuadNet, 16>::apply(const Double4* from, Double4* to) const {
+  std::array<Double4, 16> half;
+  for (int j = 0; j < 4; ++j) {
+    const Double4* row = from + 4 * j;
+    for (int i = 0; i < 4; ++i) {
+      const std::array<double, 4>& w = along[i];
+      half[4 * j + i] = (w[0] * row[0] + w[1] * row[1]) + (w[2] * row[2] + w[3] * row[3]);
+    }
+  }
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) {
+      const std::array<double, 4>& w = across[j];
+      to[4 * j + i] = (w[0] * half[i] + w[1] * half[4 + i]) + (w[2] * half[8 + i] + w[3] * half[12 + i]);
+    }
+  }
 }
 
-const NetTables<TriangleNet>& triangle_tables() {
-  static const NetTables<TriangleNet> tables = make_tables<TriangleNet>(1.0 / 24.0, 1.0 / 16.0);
-  return tables;
+template <typename Net, int kColumns>
+void NetMatrix<Net, kColumns>::apply(const Double4* from, Double4* to) const {
+  std::array<Double4, Net::kPoints> result;
+  for (int r = 0; r < Net::kPoints; ++r) {
+    Double4 even{};
+    Double4 odd{};
+    int k = 0;
+    for (; k + 1 < kColumns; k += 2) {
+      even += rows[r][k] * from[k];
+      odd += rows[r][k + 1] * from[k + 1];
+    }
+    if (k < kColumns) even += rows[r][k] * from[k];
+    result[r] = even + odd;
+  }
+  std::copy(result.begin(), result.end(), to);
+}
+
+template <>
+const SplineMatrix<QuadNet>& spline_matrix<QuadNet>() {
+  static constexpr SplineMatrix<QuadNet> kMatrix{kFromSpline, kFromSpline};
+  return kMatrix;
+}
+template <>
+const SplineMatrix<TriangleNet>& spline_matrix<TriangleNet>() {
+  static const SplineMatrix<TriangleNet> matrix = make_spline_matrix();
+  return matrix;
+}
+
+template <>
+const HalfMatrix<QuadNet>& half_matrix<QuadNet>(int child) {
+  static constexpr HalfMatrix<QuadNet> kMatrices[4] = {
+      {kFirstHalf, kFirstHalf}, {kSecondHalf, kFirstHalf}, {kSecondHalf, kSecondHalf}, {kFirstHalf, kSecondHalf}};
+  return kMatrices[child];
+}
+template <>
+const HalfMatrix<TriangleNet>& half_matrix<TriangleNet>(int child) {
+  const auto make = [](int number) {
+    return net_of_values<TriangleNet::kPoints>(net_values(half<TriangleNet>(number)), 1.0 / 16.0);
+  };
+  static const std::array<HalfMatrix<TriangleNet>, 4> matrices{make(0), make(1), make(2), make(3)};
+  return matrices[child];
+}
+
+SplineMatrix<QuadNet> product(const HalfMatrix<QuadNet>& half, const SplineMatrix<QuadNet>& part) {
+  return {multiply(half.along, part.along), multiply(half.across, part.across)};
+}
+SplineMatrix<TriangleNet> product(const HalfMatrix<TriangleNet>& half, const SplineMatrix<TriangleNet>& part) {
+  return {multiply(half.rows, part.rows)};
 }
 
 NetJet QuadNet::jet(const Double4* net, double u, double v) {
@@ -129,7 +179,7 @@ NetJet QuadNet::jet(const Double4* net, double u, double v) {
   return jet;
 }
 
-/// De Casteljau's scheme down to the quadratic net, whose points have all that is asked.
+/// De Casteljau's scheme is followed down to the quadratic net, from whose points the jet follows.
 NetJet TriangleNet::jet(const Double4* net, double u, double v) {
   const double w = 1.0 - u - v;
   std::array<Double4, 10> cubic;
@@ -158,7 +208,7 @@ NetJet TriangleNet::jet(const Double4* net, double u, double v) {
 
 template <typename Net>
 NetFrame<Net>::NetFrame(const Double4* net) {
-  constexpr double kLeastAngle = 1e-6;  // below it the cell is as good as a line
+  constexpr double kLeastAngle = 1e-6;  // a cell of a smaller angle is as good as a line
   const Double4 du = Net::mean_du(net);
   const Double4 dv = Net::mean_dv(net);
   du_length = std::sqrt(dot(du, du));
@@ -172,7 +222,7 @@ NetFrame<Net>::NetFrame(const Double4* net) {
   Double4 z{0.0, 0.0, 1.0, 0.0};
   if (flat_enough) {
     const Double4 e1 = rest / dv_across;
-    const Double4 e2{e0[1] * e1[2] - e0[2] * e1[1], e0[2] * e1[0] - e0[0] * e1[2], e0[0] * e1[1] - e0[1] * e1[0], 0.0};
+    const Double4 e2 = cross(e0, e1);
     x = Double4{e0[0], e1[0], e2[0], 0.0};
     y = Double4{e0[1], e1[1], e2[1], 0.0};
     z = Double4{e0[2], e1[2], e2[2], 0.0};
@@ -187,12 +237,7 @@ NetFrame<Net>::NetFrame(const Double4* net) {
 
 template <typename Net>
 double NetFrame<Net>::least_squared() const {
-  double sum = 0.0;
-  for (int c = 0; c < 3; ++c) {
-    const double beyond = std::max({low[c], -high[c], 0.0});
-    sum += beyond * beyond;
-  }
-  return sum;
+  return squared_distance_of_box(low, high);
 }
 
 template <typename Net>
@@ -214,8 +259,8 @@ void NetFrame<Net>::guess(double& u, double& v) const {
 
 namespace {
 
-/// Bounds on second derivatives by parameters of unit metric: of the normal part as an interval of its eigenvalues, of
-/// the tangential part by its length.
+/// Bounds on the second derivatives S_ww by directions w of length 1 in the mean metric: their normal coordinates lie
+/// between `least` and `most`, and their tangential parts are no longer than `tangential`.
 struct SecondBounds {
   double least = 0.0;
   double most = 0.0;
@@ -238,7 +283,8 @@ SecondBounds second_bounds(const NetFrame<Net>& frame) {
     const Double4 most = higher(high[k], -low[k]);
     along[k] = std::sqrt(most[0] * most[0] + most[1] * most[1]);
   }
-  // (u, v) = (p - b q / c, q) / ... : with du = (a, 0) and dv = (b, c), d/dp = d/du / a and d/dq = (d/dv - b/a d/du)/c.
+  // Let p and q be the coordinates in the mean tangent plane: p = du_length u + dv_along v and q = dv_across v. With
+  // a = 1 / du_length, b = dv_along / du_length and c = 1 / dv_across, d/dp = a d/du and d/dq = c (d/dv - b d/du).
   const double a = 1.0 / frame.du_length;
   const double c = 1.0 / frame.dv_across;
   const double b = frame.dv_along * a;
@@ -267,7 +313,8 @@ SecondBounds second_bounds(const NetFrame<Net>& frame) {
   return {mean - spread - error, mean + spread + error, norm(combine_sizes(along))};
 }
 
-/// How far the tangential derivatives by parameters of unit metric are from an isometry.
+/// How far the map from the mean metric to the surface, seen in the mean tangent plane, is from an isometry: a bound on
+/// the norm of the difference between its derivative and the identity.
 template <typename Net>
 double first_bound(const NetFrame<Net>& frame) {
   std::array<Double4, 2> most{};
@@ -283,8 +330,9 @@ double first_bound(const NetFrame<Net>& frame) {
 
 }  // namespace
 
-/// With S = point of the cell, S_w its derivative by a unit direction: (S.S/2)_ww = S_w.S_w + S.S_ww, where the first
-/// is at least (1 - first_bound)^2, and the second is taken apart into normal and tangential parts.
+/// Let S_w be the derivative of the points S by a direction w of length 1 in the mean metric. Then
+/// (S.S/2)_ww = S_w.S_w + S.S_ww. The first term is at least (1 - first_bound)^2, or 0 where that bound exceeds 1. The
+/// second is bounded by its normal part, a product of two intervals, and its tangential part, a product of two lengths.
 template <typename Net>
 double NetFrame<Net>::convexity() const {
   if (!flat_enough) return 0.0;
@@ -307,6 +355,8 @@ double NetFrame<Net>::bend() const {
   return first_bound(*this) + size * std::max(std::abs(second.least), std::abs(second.most));
 }
 
+template struct NetMatrix<TriangleNet, TriangleNet::kSplinePoints>;
+template struct NetMatrix<TriangleNet, TriangleNet::kPoints>;
 template struct NetFrame<QuadNet>;
 template struct NetFrame<TriangleNet>;
 

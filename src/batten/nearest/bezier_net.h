@@ -1,30 +1,22 @@
-/// \file A polynomial part of the surface as a Bezier net: jets, halves, and what bounds it and the squared distance
-/// from the origin to it.
+/// \file A polynomial part of the surface as a Bezier net: its jets, its halves, and bounds on it and on the squared
+/// distance from the origin to it.
 ///
-/// Cells have parameters of their own: (u, v) in the unit square, or u, v >= 0 and u + v <= 1. Their points are given
-/// from where the distance is asked, so that rounding is in proportion to distances.
+/// A cell has parameters of its own: (u, v) in the unit square, or u, v >= 0 and u + v <= 1. The points of its net are
+/// relative to the query, which is the origin, so that rounding errors are in proportion to distances.
 #pragma once
 #include <array>
 #include <cmath>
 
-#include "batten/double4.h"
+#include "batten/nearest/lanes.h"
 
 namespace batten {
 
-/// Of x, y and z; the fourth lane is nobody's.
-inline double dot(const Double4& a, const Double4& b) {
-  const Double4 products = a * b;
-  return products[0] + products[1] + products[2];
-}
-/// Lane by lane.
-inline Double4 lower(const Double4& a, const Double4& b) { return a < b ? a : b; }
-inline Double4 higher(const Double4& a, const Double4& b) { return a > b ? a : b; }
-
+/// A point of a net and its derivatives by u and v.
 struct NetJet {
   Double4 point, du, dv, duu, duv, dvv;
 };
 
-/// Bicubic: point 4 j + i belongs to the Bernstein polynomials i in u and j in v.
+/// A bicubic net: point 4 j + i belongs to the Bernstein polynomials i in u and j in v.
 struct QuadNet {
   static constexpr int kPoints = 16;
   static constexpr int kSplinePoints = 16;
@@ -35,9 +27,10 @@ struct QuadNet {
   static constexpr double kMiddle = 0.5;
 
   static NetJet jet(const Double4* net, double u, double v);
-  /// Of the net of a derivative in u, in v; the same twice, and once in each.
+  /// Calls visit(point, which) for the points of the nets of the first derivatives: by u (0) and by v (1).
   template <typename Visit>
   static void first_derivatives(const Double4* net, const Visit& visit);
+  /// Likewise for the second derivatives: by u twice (0), by u and v (1), by v twice (2).
   template <typename Visit>
   static void second_derivatives(const Double4* net, const Visit& visit);
   /// The net of the curve from corner `number` to the next.
@@ -49,7 +42,7 @@ struct QuadNet {
   static Double4 mean_dv(const Double4* net) { return 0.5 * (net[12] + net[15] - net[0] - net[3]); }
 };
 
-/// Quartic: point index(i, j) belongs to u^i v^j (1 - u - v)^(4 - i - j).
+/// A quartic net: point index(i, j) belongs to the Bernstein polynomial in u^i v^j (1 - u - v)^(4 - i - j).
 struct TriangleNet {
   static constexpr int kPoints = 15;
   static constexpr int kSplinePoints = 12;
@@ -72,28 +65,45 @@ struct TriangleNet {
   static Double4 mean_dv(const Double4* net) { return net[14] - net[0]; }
 };
 
-/// Matrices between nets; row i has the weights of its point i.
-template <typename Net>
-struct NetTables {
-  /// From the spline's control points, in the order of RegularPatch (kTriangleLattice).
-  std::array<std::array<double, Net::kSplinePoints>, Net::kPoints> from_spline;
-  /// To the four parts that halving makes: at the corners in turn; a triangle's fourth is the middle, turned by half.
-  std::array<std::array<std::array<double, Net::kPoints>, Net::kPoints>, 4> halves;
-};
-const NetTables<QuadNet>& quad_tables();
-const NetTables<TriangleNet>& triangle_tables();
-template <typename Net>
-const NetTables<Net>& net_tables();
-template <>
-inline const NetTables<QuadNet>& net_tables<QuadNet>() {
-  return quad_tables();
-}
-template <>
-inline const NetTables<TriangleNet>& net_tables<TriangleNet>() {
-  return triangle_tables();
-}
+/// The matrix that takes the points of a net, or the control points of a spline, to the points of a net.
+template <typename Net, int kColumns>
+struct NetMatrix {
+  std::array<std::array<double, kColumns>, Net::kPoints> rows;
 
-/// Where a part of a cell lies: its (u, v) is at (u0 + size u, v0 + size v) of the whole; size < 0 where it is turned.
+  /// `to` may be `from`.
+  void apply(const Double4* from, Double4* to) const;
+};
+
+/// Between bicubic nets, and from bicubic splines, the weight of point (k, l) in point (i, j) is
+/// along[i][k] * across[j][l].
+template <>
+struct NetMatrix<QuadNet, 16> {
+  std::array<std::array<double, 4>, 4> along;
+  std::array<std::array<double, 4>, 4> across;
+
+  void apply(const Double4* from, Double4* to) const;
+};
+
+/// From the spline's control points, in the order of RegularPatch (kTriangleLattice).
+template <typename Net>
+using SplineMatrix = NetMatrix<Net, Net::kSplinePoints>;
+/// From the net's own points.
+template <typename Net>
+using HalfMatrix = NetMatrix<Net, Net::kPoints>;
+
+/// The net of a whole patch.
+template <typename Net>
+const SplineMatrix<Net>& spline_matrix();
+/// The net of one of the four parts that halving makes: those at the corners in turn; a triangle's fourth is the
+/// middle, turned by half.
+template <typename Net>
+const HalfMatrix<Net>& half_matrix(int child);
+/// The matrix product.
+SplineMatrix<QuadNet> product(const HalfMatrix<QuadNet>& half, const SplineMatrix<QuadNet>& part);
+SplineMatrix<TriangleNet> product(const HalfMatrix<TriangleNet>& half, const SplineMatrix<TriangleNet>& part);
+
+/// Where a part of a cell lies: its (u, v) is at (u0 + size u, v0 + size v) of the whole; size < 0 where the part is
+/// turned by half.
 struct Placement {
   double u0 = 0.0;
   double v0 = 0.0;
@@ -101,38 +111,45 @@ struct Placement {
 
   double u(double part_u) const { return u0 + size * part_u; }
   double v(double part_v) const { return v0 + size * part_v; }
-  /// Of the part's own part.
+  /// The placement, in the whole, of a part of this part.
   Placement of(const Placement& part) const { return {u(part.u0), v(part.v0), size * part.size}; }
 };
-/// The part that halving number `child` gives.
+/// Where the part of half_matrix(child) lies.
 template <typename Net>
 Placement half(int child) {
   if (child >= Net::kCorners) return {0.5, 0.5, -0.5};
   return {0.5 * Net::kCornerU[child], 0.5 * Net::kCornerV[child], 0.5};
 }
 
-/// A box around a net in the frame of its mean tangent plane, and how its parameters lie in it.
+/// A net in the frame of its mean tangent plane: the first axis runs along the mean derivative by u, the second lies in
+/// the plane, the third is its normal. The box from `low` to `high` has the cell in it.
+///
+/// In the plane a step of (du, dv) in the parameters has about the length |(du, dv)| =
+/// sqrt((du_length du + dv_along dv)^2 + (dv_across dv)^2), which is called the mean metric.
 template <typename Net>
 struct NetFrame {
   explicit NetFrame(const Double4* net);
 
-  /// No point of the cell is nearer to the origin, squared.
+  /// The squared distance of the box from the origin: no point of the cell is nearer.
   double least_squared() const;
-  /// The parameters of the plane's point over the origin, moved into the cell.
+  /// The parameters at which the mean tangent plane is nearest to the origin, moved into the cell.
   void guess(double& u, double& v) const;
-  /// A number m so that |S(u, v)|^2 / 2 in the metric r'r of `du_length` ... is convex, of modulus m; 0 or less where
-  /// nothing is known.
+  /// A lower bound m on the second derivative of |S(u, v)|^2 / 2, S being the cell's points, in any direction of the
+  /// parameters that has length 1 in the mean metric: the second derivative in the direction (du, dv) is at least
+  /// m |(du, dv)|^2 all over the cell. Where m > 0 the squared distance is convex with this modulus. 0 where the mean
+  /// derivatives span no plane, so that nothing is known.
   double convexity() const;
-  /// How far the cell is from a parallelogram: the turn of its derivatives against the mean ones.
+  /// How far the cell is from a parallelogram: a bound on the change of its first derivatives, relative to the mean
+  /// ones. Halving a cell about halves its bend.
   double bend() const;
 
-  std::array<Double4, Net::kPoints> points;  ///< in the frame: along the mean du, across it, along the normal
+  std::array<Double4, Net::kPoints> points;  ///< of the net, in the frame
   Double4 low;
   Double4 high;
   bool flat_enough = true;  ///< the mean derivatives span a plane
-  double du_length = 0.0;   ///< of the mean du
-  double dv_along = 0.0;    ///< of the mean dv, along du
-  double dv_across = 0.0;   ///< and across it
+  double du_length = 0.0;   ///< the length of the mean derivative by u
+  double dv_along = 0.0;    ///< the first coordinate of the mean derivative by v
+  double dv_across = 0.0;   ///< its second coordinate; the third is 0
 };
 
 extern template struct NetFrame<QuadNet>;

@@ -1,18 +1,22 @@
 /// \file Leaning boxes in a tree of eight children a node, visited from the nearest on.
 ///
 /// The tree is implicit: boxes stand in an order in which any eight in a row, any sixty-four, ... lie together, and a
-/// level of nodes bounds eight of the level below. All in floats: distances are never too large, and hardly too small.
+/// level of nodes bounds eight of the level below. So the count of boxes says how the tree is made, and boxes that move
+/// are written in place. All numbers are floats: distances are never too large, and hardly too small.
 #pragma once
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "batten/buffer.h"
+#include "batten/nearest/lanes.h"
 #include "batten/types.h"
 
 namespace batten {
 
+/// A box along the axes of space.
 struct FloatBox {
   std::array<float, 3> low;
   std::array<float, 3> high;
@@ -28,19 +32,44 @@ struct LeaningBox {
   std::array<float, 3> high;
 };
 
-/// A box around all the points (x, y, z, and a number that is not read), flat where they are, and turned so that its
-/// first axis is `along` seen in its plane.
-LeaningBox leaning_box_of(const Eigen::Vector4d* points, std::size_t count, const Eigen::Vector3d& along);
+/// The boxes around a cell.
+struct CellBox {
+  LeaningBox leaning;
+  FloatBox around;  ///< rounded to the nearest floats: BoxTree allows for that
+};
 
+/// Boxes around points whose fourth coordinate is 0. The leaning box has its first axis along `along`, its third along
+/// the product of `along` and `across`; where these span no plane, its first axis runs along the longer.
+CellBox cell_box_of(std::span<const Double4> points, const Double4& along, const Double4& across);
+
+/// The middle of a box that a tree will have.
+struct BoxMiddle {
+  std::array<float, 3> at;
+  Index box;  ///< its number
+};
+/// Brings middles into the order in which their boxes stand in a tree. O(n log n), threaded; it depends on the middles
+/// and the numbers alone.
+void sort_for_tree(Buffer<BoxMiddle>& middles);
+
+/// The tree. It keeps no order of its own: the caller numbers the boxes as sort_for_tree() has them.
 class BoxTree {
  public:
   static constexpr int kFanout = 8;
 
   BoxTree() = default;
-  /// around[i] has the same in it as boxes[i], along the usual axes. Place i of the tree has box order[i].
-  /// O(n log n), threaded; 64 bytes a box.
-  BoxTree(const Buffer<LeaningBox>& boxes, const Buffer<FloatBox>& around, Buffer<Index>& order);
+  /// A tree of so many boxes, whose bounds are still to be set. 64 bytes a box.
+  explicit BoxTree(Index box_count);
 
+  Index box_count() const { return box_count_; }
+  Index leaf_count() const { return static_cast<Index>(leaves_.size()); }
+
+  /// Sets the boxes of a leaf, those at the places from kFanout * leaf on. Safe from several threads for different
+  /// leaves.
+  void set_leaf(Index leaf, std::span<const CellBox> boxes);
+  /// Makes the bounds of all nodes once the leaves are set. O(n / 64), threaded.
+  void bound_nodes();
+
+  /// Around all boxes.
   const FloatBox& bounds() const { return bounds_; }
 
   /// Calls visit(place), which returns the limit from then on, for every box that is nearer to the point than the limit
@@ -64,20 +93,20 @@ class BoxTree {
   };
   struct Entry {
     float distance;
-    int level;  ///< of a node; 0: of a leaf; -1: a box
+    int level;  ///< of a node; 0 for a leaf, -1 for a box
     Index index;
   };
   static constexpr int kMostLevels = 11;  // eight to the eleventh: more than an Index counts
 
-  void fill_leaves(const Buffer<LeaningBox>& boxes, const Buffer<Index>& order);
-  void add_level(const Buffer<FloatBox>& below);
+  FloatBox bounds_of(const Node& node) const;
   static void node_distances(const Node& node, const std::array<float, 3>& point, float margin, Lanes& distances);
   static void leaf_distances(const Leaf& leaf, const std::array<float, 3>& point, float margin, Lanes& distances);
 
+  Index box_count_ = 0;
   Buffer<Leaf> leaves_;
-  Buffer<Node> nodes_;
-  std::array<Index, kMostLevels + 1> level_start_{};
-  int levels_ = 0;  ///< the leaves' included
+  Buffer<Node> nodes_;                                ///< from the lowest level on; the last one is the root
+  std::array<Index, kMostLevels + 2> level_start_{};  ///< level l has the nodes from level_start_[l] on
+  int levels_ = 0;                                    ///< the leaves' included; 2 or more where there are boxes
   FloatBox bounds_{};
 };
 
@@ -90,7 +119,7 @@ inline float squared_beyond(float low, float number, float high, float margin) {
   return apart * apart;
 }
 
-/// The margin takes up what rounding loses.
+/// Squared distances of a point from the boxes of a node, less the margin, which takes up what rounding loses.
 inline void BoxTree::node_distances(const Node& node, const std::array<float, 3>& point, float margin,
                                     Lanes& distances) {
   const float x = point[0];

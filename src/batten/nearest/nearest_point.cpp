@@ -10,6 +10,7 @@
 #include "batten/error.h"
 #include "batten/nearest/nearest_search.h"
 #include "batten/parallel/parallel.h"
+#include "batten/patch/surface_patches.h"
 
 namespace batten {
 
@@ -19,7 +20,7 @@ constexpr double kTolerance = 1e-10;  ///< of the diagonal
 /// From farther away, in diagonals, doubles no longer tell the surface's points apart.
 constexpr double kFarthest = 1e8;
 
-/// Every third bit, from the lowest on.
+/// Moves bit i of a number to bit 3 i.
 std::uint64_t spread_bits(std::uint64_t number) {
   constexpr int kBits = 10;
   std::uint64_t spread = 0;
@@ -52,16 +53,20 @@ Double4 vector_of(const Eigen::Vector3d& point) { return Double4{point[0], point
 }  // namespace
 
 struct NearestPoints::Parts {
+  explicit Parts(const Topology& topology_in) : topology(topology_in) {}
+
+  Topology topology;
   std::variant<std::monostate, SurfaceCells<QuadNet>, SurfaceCells<TriangleNet>> cells;
   Eigen::Vector3d centre;
   double diagonal = 0.0;
   double tolerance = 0.0;
 
+  void measure();
   template <typename Net>
   NearestPoint find(NearestSearch<Net>& search, const Eigen::Vector3d& query) const;
 };
 
-/// What is very far away looks for the nearest point along the same direction from not so far.
+/// For a query that is very far away, the search starts in the same direction at a distance that doubles can serve.
 template <typename Net>
 NearestPoint NearestPoints::Parts::find(NearestSearch<Net>& search, const Eigen::Vector3d& query) const {
   const Eigen::Vector3d away = query - centre;
@@ -80,35 +85,49 @@ NearestPoint NearestPoints::Parts::find(NearestSearch<Net>& search, const Eigen:
   return result;
 }
 
+/// Takes the size of the surface from its boxes.
+void NearestPoints::Parts::measure() {
+  const auto run = [this](const auto& surface) {
+    if constexpr (!std::is_same_v<std::decay_t<decltype(surface)>, std::monostate>) {
+      const Double4& middle = surface.centre();
+      centre = {middle[0], middle[1], middle[2]};
+      const FloatBox& box = surface.tree().bounds();
+      const Eigen::Vector3d extent(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
+      diagonal = extent.norm() / surface.scale();
+    }
+  };
+  std::visit(run, cells);
+  const double size = centre.cwiseAbs().maxCoeff() + diagonal;
+  tolerance = std::max(kTolerance * diagonal, 64.0 * std::numeric_limits<double>::epsilon() * size);
+}
+
 NearestPoints::NearestPoints(const Topology& topology, const Scheme& scheme, ConstValuesRef control,
                              const Progress& progress)
-    : parts_(std::make_unique<Parts>()) {
-  require_vertex_rows(topology, control);
-  if (control.cols() != 3) throw Error(ErrorCode::BadShape, "a limit surface has points of three columns");
-  for (Index v = 0; v < topology.vertex_count(); ++v) {
-    if (control.row(v).allFinite()) continue;
-    throw Error(ErrorCode::NotFinite, "control point " + std::to_string(v) + " is not finite");
-  }
+    : parts_(std::make_unique<Parts>(topology)) {
+  require_control_points(topology, control);
   if (topology.face_count() == 0)
     throw Error(ErrorCode::BadArgument, "there are no faces, so no surface to be near to");
   const auto build = [&](auto net) {
     using Net = decltype(net);
-    auto& cells = parts_->cells.emplace<SurfaceCells<Net>>(topology, scheme, control, progress);
-    const FloatBox& box = cells.tree().bounds();
+    const auto& cells = parts_->cells.emplace<SurfaceCells<Net>>(topology, scheme, control, progress);
     if (cells.cell_count() == 0)
       throw Error(ErrorCode::BadArgument, "all faces are holes, so there is no surface to be near to");
-    const Double4& centre = cells.centre();
-    parts_->centre = {centre[0], centre[1], centre[2]};
-    const Eigen::Vector3d extent(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
-    parts_->diagonal = extent.norm() / cells.scale();
   };
   if (scheme.kind == SchemeKind::CatmullClark) {
     build(QuadNet());
   } else {
     build(TriangleNet());
   }
-  const double size = parts_->centre.cwiseAbs().maxCoeff() + parts_->diagonal;
-  parts_->tolerance = std::max(kTolerance * parts_->diagonal, 64.0 * std::numeric_limits<double>::epsilon() * size);
+  parts_->measure();
+}
+
+void NearestPoints::set_control(ConstValuesRef control, const Progress& progress) {
+  require_control_points(parts_->topology, control);
+  const auto run = [&](auto& cells) {
+    if constexpr (!std::is_same_v<std::decay_t<decltype(cells)>, std::monostate>) cells.set_control(control, progress);
+  };
+  std::visit(run, parts_->cells);
+  parts_->measure();
 }
 
 NearestPoints::~NearestPoints() = default;

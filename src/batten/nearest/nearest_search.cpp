@@ -10,17 +10,18 @@ namespace batten {
 
 namespace {
 
-/// A query that has looked at so many parts of cells is on a surface that degenerates: it returns what it has.
+/// A query that has visited so many parts of cells is near a part of the surface that degenerates. It returns the best
+/// point so far, and the least distance that is proved by then.
 constexpr int kMostVisits = 20000;
-/// Below it Newton's method proves nothing in reasonable time.
+/// Where the squared distance is less convex than this, Newton's method proves nothing in reasonable time.
 constexpr double kLeastModulus = 0.02;
+/// Newton's method takes no more steps in a cell.
 constexpr int kMostCellSteps = 12;
 
 }  // namespace
 
 template <typename Net>
-NearestSearch<Net>::NearestSearch(const SurfaceCells<Net>& cells)
-    : cells_(cells), scratch_(std::max<std::size_t>(cells.most_points(), 16)) {}
+NearestSearch<Net>::NearestSearch(const SurfaceCells<Net>& cells) : cells_(cells), scratch_(cells.most_points()) {}
 
 template <typename Net>
 NearestFound NearestSearch<Net>::find(const Double4& query, double tolerance) {
@@ -44,7 +45,7 @@ NearestFound NearestSearch<Net>::find(const Double4& query, double tolerance) {
   return best_;
 }
 
-/// True where nothing of interest is at this squared distance or beyond it.
+/// True where a part whose squared distance is at least this can be left; then the proof takes note of the bound.
 template <typename Net>
 bool NearestSearch<Net>::leave(double squared) {
   if (squared < cut_ && visits_ < kMostVisits) return false;
@@ -60,12 +61,7 @@ bool NearestSearch<Net>::leave_box(const Double4* points, std::size_t count) {
     low = lower(low, points[i]);
     high = higher(high, points[i]);
   }
-  double squared = 0.0;
-  for (int c = 0; c < 3; ++c) {
-    const double beyond = std::max({low[c], -high[c], 0.0});
-    squared += beyond * beyond;
-  }
-  return leave(squared);
+  return leave(squared_distance_of_box(low, high));
 }
 
 template <typename Net>
@@ -88,18 +84,19 @@ void NearestSearch<Net>::visit(Index place) {
   const CellShape& shape = cells_.shape(cell);
   face_ = cells_.face(cell);
   rings_.resize(std::max<std::size_t>(static_cast<std::size_t>(shape.rows), Net::kPoints));
-  cells_.points(cell, query_, scratch_.data(), rings_.data());
+  cells_.points(cell, query_, scratch_, rings_.data());
   const Placement placement = cells_.placement(cell);
-  if (shape.kind == RingSteps::kPatch) {
+  if (shape.type == RingSteps::kPatch) {
     search_net(rings_.data(), placement);
     return;
   }
   rings_.resize(static_cast<std::size_t>(shape.rows));
   offer_corners(placement);
-  search_ring(shape.kind, 0, placement);
+  search_ring(shape.type, 0, placement);
 }
 
-/// What is not proved at once waits until all other cells had their say.
+/// A part that one attempt does not settle waits until all cells of the tree have been visited: by then a nearer point
+/// may be known.
 template <typename Net>
 void NearestSearch<Net>::search_net(const Double4* net, const Placement& placement) {
   ++visits_;
@@ -120,24 +117,19 @@ void NearestSearch<Net>::search_pending() {
     std::pop_heap(queue_.begin(), queue_.end(), std::greater<>());
     const auto [least, place] = queue_.back();
     queue_.pop_back();
-    if (leave(least)) continue;  // so will be all others
+    if (leave(least)) continue;  // no other part is nearer, so they are all left
     const Part part = pending_[place];
     face_ = part.face;
     for (int child = 0; child < 4; ++child) {
-      const auto& weights = net_tables<Net>().halves[child];
       std::array<Double4, Net::kPoints> half_net;
-      for (int r = 0; r < Net::kPoints; ++r) {
-        Double4 sum{};
-        for (int k = 0; k < Net::kPoints; ++k) sum += weights[r][k] * part.net[k];
-        half_net[r] = sum;
-      }
+      half_matrix<Net>(child).apply(part.net.data(), half_net.data());
       search_net(half_net.data(), part.placement.of(half<Net>(child)));
     }
   }
 }
 
-/// True where the squared distance falls all over the cell towards one of its sides, and along that side has one least
-/// place, which is offered: beyond creases and boundaries.
+/// True where the squared distance falls all over the cell towards one of its sides, and has a single minimum along
+/// that side, which is offered. This settles queries beyond creases and boundaries.
 template <typename Net>
 bool NearestSearch<Net>::search_border(const Double4* net, const Placement& placement) {
   const std::array<bool, Net::kCorners> falls_to = falling_sides<Net>(net);
@@ -155,13 +147,14 @@ bool NearestSearch<Net>::search_border(const Double4* net, const Placement& plac
   return false;
 }
 
-/// Newton's method in the cell. True where it proves that the cell has nothing of interest but what it offered.
+/// Follows Newton's method in the cell. True where it proves that no point of the cell is nearer than those it offered
+/// by more than the tolerance.
 template <typename Net>
 bool NearestSearch<Net>::descend(const Double4* net, const NetFrame<Net>& frame, double modulus,
                                  const Placement& placement, double& least) {
-  constexpr double kSmallStep = 1e-7;  // the next one is its square
+  constexpr double kSmallStep = 1e-7;  // after such a step the error is about its square
   const bool provable = modulus > kLeastModulus;
-  double u = Net::kMiddle;  // from where bounds reach farthest
+  double u = Net::kMiddle;  // bounds reach farthest from the middle
   double v = Net::kMiddle;
   if (provable) frame.guess(u, v);
   bool best_here = false;
@@ -188,7 +181,7 @@ bool NearestSearch<Net>::descend(const Double4* net, const NetFrame<Net>& frame,
   return false;
 }
 
-/// Corners of a ring's face that are vertices of the base: their limit positions are known.
+/// Offers the corners of a ring's face that are vertices of the base, whose limit positions are known.
 template <typename Net>
 void NearestSearch<Net>::offer_corners(const Placement& placement) {
   for (int c = 0; c < Net::kCorners; ++c) {
@@ -204,7 +197,7 @@ void NearestSearch<Net>::offer_corners(const Placement& placement) {
 
 /// The ring's points stand on the stack from `first` on, the face's own before the others.
 template <typename Net>
-void NearestSearch<Net>::search_ring(Index kind, std::size_t first, const Placement& placement) {
+void NearestSearch<Net>::search_ring(Index type, std::size_t first, const Placement& placement) {
   ++visits_;
   if (leave_box(&rings_[first], rings_.size() - first)) return;
   std::array<std::pair<double, int>, 4> order;
@@ -217,7 +210,7 @@ void NearestSearch<Net>::search_ring(Index kind, std::size_t first, const Placem
   if (Net::kCorners == 3) order[3] = {dot(middle, middle), 3};
   std::sort(order.begin(), order.end());
   for (const auto& each : order) {
-    search_ring_child(cells_.steps().child(kind, each.second), first, placement.of(half<Net>(each.second)));
+    search_ring_child(cells_.steps().child(type, each.second), first, placement.of(half<Net>(each.second)));
   }
 }
 
@@ -229,7 +222,7 @@ void NearestSearch<Net>::search_ring_child(const RingSteps::Child& child, std::s
   ring_child_points<Net>(child, &rings_[first], &rings_[own]);
   if (child.type == RingSteps::kPatch) {
     std::array<Double4, Net::kPoints> net;
-    net_of_spline<Net>(&rings_[own], net.data());
+    spline_matrix<Net>().apply(&rings_[own], net.data());
     search_net(net.data(), placement);
   } else {
     search_ring(child.type, own, placement);

@@ -1,5 +1,5 @@
-/// \file One search for the nearest point: cells from the nearest on, each left as soon as its bounds say that it has
-/// nothing nearer.
+/// \file One search for the nearest point. It visits cells from the nearest on, and leaves each as soon as its bounds
+/// prove that it has nothing nearer.
 #pragma once
 #include <limits>
 
@@ -7,26 +7,28 @@
 
 namespace batten {
 
+/// What a search has found.
 struct NearestFound {
   Index face = 0;
   double u = 0.0;
   double v = 0.0;
   Double4 offset{};      ///< from the query to the point
-  double squared = 0.0;  ///< distance
-  double least = 0.0;    ///< no point is nearer than this, squared
+  double squared = 0.0;  ///< the squared distance
+  double least = 0.0;    ///< a squared distance: it is proved that no point is nearer
 };
 
-/// Where the squared distance is convex over a cell, Newton's method finds its least and proves it: a convex function
-/// lies above its tangent. Where it is not, the cell is halved. Scratch memory of one thread.
+/// Where the squared distance is convex over a cell, Newton's method finds its minimum and proves it: a convex function
+/// lies above its tangent plane. Where it is not, the cell is halved. A search is the scratch memory of one thread.
 template <typename Net>
 class NearestSearch {
  public:
   explicit NearestSearch(const SurfaceCells<Net>& cells);
 
-  /// Cells that can win less than the tolerance are left out.
+  /// Leaves out cells in which a point could be nearer by less than the tolerance.
   NearestFound find(const Double4& query, double tolerance);
 
  private:
+  /// A part of a cell that waits to be halved.
   struct Part {
     Index face;
     Placement placement;
@@ -36,7 +38,7 @@ class NearestSearch {
   void search_net(const Double4* net, const Placement& placement);
   void search_pending();
   bool search_border(const Double4* net, const Placement& placement);
-  void search_ring(Index kind, std::size_t first, const Placement& placement);
+  void search_ring(Index type, std::size_t first, const Placement& placement);
   void search_ring_child(const RingSteps::Child& child, std::size_t first, const Placement& placement);
   bool descend(const Double4* net, const NetFrame<Net>& frame, double modulus, const Placement& placement,
                double& least);
@@ -48,15 +50,14 @@ class NearestSearch {
   const SurfaceCells<Net>& cells_;
   Double4 query_{};
   double tolerance_ = 0.0;
-  double cut_ = 0.0;  ///< squared distances from here on are of no interest
+  double cut_ = 0.0;  ///< parts at this squared distance or beyond it are left
   NearestFound best_;
-  Index face_ = 0;  ///< of the cell at hand
-  int visits_ = 0;
-  ///< of cells and parts of cells
-  std::vector<Double4> scratch_;
-  std::vector<Double4> rings_;  ///< a stack
+  Index face_ = 0;  ///< of the cell that is being searched
+  int visits_ = 0;  ///< of cells and parts of cells
+  typename SurfaceCells<Net>::Scratch scratch_;
+  std::vector<Double4> rings_;  ///< a stack of the rings between a cell and the part at hand
   std::vector<Part> pending_;
-  std::vector<std::pair<double, std::size_t>> queue_;  ///< a heap of pending parts by their least squared distance
+  std::vector<std::pair<double, std::size_t>> queue_;  ///< a heap of pending parts by their bound on the distance
 };
 
 }  // namespace batten

@@ -15,7 +15,7 @@ bool inside(double u, double v) {
   return u >= 0.0 && v >= 0.0 && (Net::kCorners == 4 ? u <= 1.0 && v <= 1.0 : u + v <= 1.0);
 }
 
-/// Intervals of x, y and z.
+/// Intervals of x, y and z that hold the points added so far.
 struct Box {
   Double4 low;
   Double4 high;
@@ -26,17 +26,10 @@ struct Box {
     high = empty ? point : higher(high, point);
     empty = false;
   }
-  double least_squared() const {
-    double squared = 0.0;
-    for (int c = 0; c < 3; ++c) {
-      const double beyond = std::max({low[c], -high[c], 0.0});
-      squared += beyond * beyond;
-    }
-    return squared;
-  }
+  double least_squared() const { return squared_distance_of_box(low, high); }
 };
 
-/// The least that the product of a vector of each can be.
+/// A lower bound on the scalar product of a vector in one box and a vector in the other.
 double least_dot(const Box& a, const Box& b) {
   double sum = 0.0;
   for (int c = 0; c < 3; ++c) {
@@ -85,7 +78,7 @@ void move_to_least(const DistanceModel& model, double& u, double& v) {
 template <typename Net>
 double most_decrease(const DistanceModel& model, const NetFrame<Net>& frame, double modulus, double u, double v) {
   const double concave = std::min(modulus, 0.0);
-  double most = 0.0;  // at a corner, where the paraboloid bends downwards or not at all
+  double most = 0.0;  // of the corners: where the paraboloid is not convex, it is least at one of them
   for (int c = 0; c < Net::kCorners; ++c) {
     const double du = Net::kCornerU[c] - u;
     const double dv = Net::kCornerV[c] - v;

@@ -2,83 +2,35 @@
 /// halve on demand.
 ///
 /// A cell's net follows from the control points of its piece (patch/pieces.h) by a matrix that all pieces alike share,
-/// so a cell takes 8 bytes and its box 28.
+/// so a cell takes 8 bytes and its box 64.
 #pragma once
 #include <memory>
+#include <span>
 #include <vector>
 
-#include "batten/nearest/bezier_net.h"
+#include "batten/limit/limit_matrix.h"
 #include "batten/nearest/box_tree.h"
-#include "batten/patch/pieces.h"
-#include "batten/patch/ring_steps.h"
+#include "batten/nearest/cell_shapes.h"
 
 namespace batten {
 
-/// A part of a piece: a net, or the one-ring of a part that is irregular.
-struct CellShape {
-  Placement placement;  ///< in the piece
-  Index kind;           ///< of RingSteps; kPatch for a net
-  Index rows;           ///< points of the net or of the ring
-  Index columns;        ///< control points of the piece
-  Buffer<double> weights;
-};
-
-/// How pieces fall into cells.
-template <typename Net>
-class CellShapes {
- public:
-  static constexpr int kMostHalvings = 3;
-
-  CellShapes(const Pieces& pieces, RingSteps& steps);
-
-  struct Range {
-    Index first;
-    Index count;
-  };
-  /// A regular piece halved so often.
-  Range regular(int halvings) const { return regular_[halvings]; }
-  Range irregular(std::int32_t configuration) const { return irregular_[configuration]; }
-  const CellShape& shape(Index i) const { return shapes_[i]; }
-  /// Of a cell, or control points of a piece.
-  Index most_points() const { return most_points_; }
-
- private:
-  struct Matrix {
-    Index rows;
-    Index columns;
-    Buffer<double> weights;
-  };
-  void add_regular(const Matrix& net, const Placement& placement, int halvings);
-  void add_ring(const RingSteps& steps, Index kind, const Matrix& ring, const Placement& placement, int levels);
-  void add_shape(const Placement& placement, Index kind, const Matrix& matrix);
-
-  std::vector<CellShape> shapes_;
-  std::array<Range, kMostHalvings + 1> regular_{};
-  std::vector<Range> irregular_;
-  Index most_points_ = Net::kPoints;
-};
-
-/// Points of a patch's rows, in the order of its spline, become its net.
-template <typename Net>
-void net_of_spline(const Double4* spline, Double4* net);
-
-/// The points of a ring's child, `child.rows` of the ring, completed where it is a patch.
-template <typename Net>
-void ring_child_points(const RingSteps::Child& child, const Double4* ring, Double4* points);
-
-/// The cells of a surface, and what a search needs of it. Const once built.
+/// The cells of a surface, and what a search needs of it. The pieces, the cells and their order in the tree belong to
+/// the connectivity and the first control points; the boxes follow the present ones.
 template <typename Net>
 class SurfaceCells {
  public:
-  /// control: V-by-3, finite. Faces of holes have no cells. Throws what Pieces throws.
+  /// control: V-by-3, finite. Faces of holes have no cells. Throws what Pieces throws, and Error(Cancelled).
   SurfaceCells(const Topology& topology, const Scheme& scheme, ConstValuesRef control, const Progress& progress);
+
+  /// Moves the surface: V-by-3, finite. Throws Error(Cancelled), and then nothing has changed.
+  void set_control(ConstValuesRef control, const Progress& progress);
 
   const Topology& base() const { return pieces_->topology(0); }
   const RingSteps& steps() const { return steps_; }
   const BoxTree& tree() const { return tree_; }
   /// The tree has (point - centre) * scale of a point, which is about 1: squares of floats must not leave their range.
-  const Double4& centre() const { return centre_; }
-  double scale() const { return scale_; }
+  const Double4& centre() const { return control_.centre; }
+  double scale() const { return control_.scale; }
 
   /// A cell of the tree.
   struct Cell {
@@ -90,33 +42,64 @@ class SurfaceCells {
   const Cell& cell(Index place) const { return cells_[place]; }
   Index face(const Cell& cell) const { return pieces_->begin(0)[cell.piece].face; }
   Placement placement(const Cell& cell) const;  ///< in its face
-  /// The cell's net or ring as seen from a point. `scratch` has room for the control points of any piece.
-  void points(const Cell& cell, const Double4& origin, Double4* scratch, Double4* points) const;
-  std::size_t most_points() const { return most_points_; }
-  /// Of the base's vertex.
-  const Double4& limit_position(Index vertex) const { return limits_[vertex]; }
+  /// Memory of one thread.
+  struct Scratch {
+    explicit Scratch(std::size_t most_points) : control(most_points) {}
+
+    std::vector<Double4> control;  ///< the control points of a piece
+    FaceRing ring;
+  };
+  /// The cell's net or ring as seen from a point. `scratch` is made with most_points().
+  void points(const Cell& cell, const Double4& origin, Scratch& scratch, Double4* points) const {
+    gather(control_, pieces_->begin(0)[cell.piece], origin, scratch);
+    shapes_->points(cell.shape, scratch.control.data(), points);
+  }
+  /// The most points that a cell has, or control points that a piece has.
+  std::size_t most_points() const { return static_cast<std::size_t>(shapes_->most_points()); }
+  /// The limit position of a vertex of the base.
+  const Double4& limit_position(Index vertex) const { return control_.limits[vertex]; }
 
  private:
-  void gather(const Piece& piece, const Double4& origin, Double4* points) const;
-  int halvings(const Piece& piece, Double4* scratch) const;
-  void find_values(ConstValuesRef base_values);
+  /// What follows from the control points.
+  struct Control {
+    std::vector<Buffer<Double4>> levels;  ///< the control points of each level of the pieces
+    Buffer<Double4> limits;
+    Double4 centre{};
+    double scale = 1.0;
+  };
+  /// Points whose hull has a cell in it, and two directions along the cell; all in the tree's unit.
+  struct Bounds {
+    explicit Bounds(std::size_t most_points) : scratch(most_points), points(most_points) {}
+
+    Scratch scratch;
+    Index piece = -1;             ///< whose control points the scratch memory has
+    std::vector<Double4> points;  ///< of the net or ring
+    std::vector<Double4> of_ring;
+    std::span<const Double4> hull;
+    Double4 along{};
+    Double4 across{};
+  };
+
+  Control control_of(ConstValuesRef values) const;
+  Control control_of_base(ConstValuesRef base_values) const;
+  Index gather(const Control& control, const Piece& piece, const Double4& origin, Scratch& scratch) const;
+  int halvings(const Piece& piece, Scratch& scratch) const;
   void choose_cells(const Buffer<std::uint8_t>& holes, const Progress& progress);
-  void build_tree(const Progress& progress);
-  void gather_bounds(const Cell& cell, std::vector<Double4>& scratch, std::vector<Double4>& bounds) const;
-  void add_ring_bounds(Index kind, std::vector<Double4>& ring, int levels, std::vector<Double4>& bounds) const;
+  void sort_cells(const Progress& progress);
+  void fit(const Control& control, BoxTree& tree, const Progress& progress) const;
+  void find_bounds(const Control& control, const Cell& cell, Bounds& bounds) const;
+  void add_ring_bounds(Index type, const Double4* ring, int levels, std::vector<Double4>& bounds) const;
   Buffer<std::uint8_t> base_holes(const Topology& topology, const Scheme& scheme) const;
 
   std::unique_ptr<Refinement> first_;
   std::unique_ptr<Pieces> pieces_;
   RingSteps steps_;
   std::unique_ptr<CellShapes<Net>> shapes_;
-  std::vector<Buffer<Double4>> values_;  ///< of each level
-  Buffer<Double4> limits_;
+  std::unique_ptr<LimitMatrix> limit_matrix_;
   Buffer<Cell> cells_;
+  Control control_;
   BoxTree tree_;
-  Double4 centre_{};
-  double scale_ = 1.0;
-  std::size_t most_points_ = 0;
+  BoxTree spare_;  ///< empty, or the tree of the control points before, to be written over
 };
 
 }  // namespace batten

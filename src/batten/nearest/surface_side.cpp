@@ -11,7 +11,7 @@ namespace batten {
 
 namespace {
 
-constexpr double kOnSide = 1e-13;  ///< the third side of a triangle is met to rounding
+constexpr double kOnSide = 1e-13;  ///< places on the third side of a triangle lie on it to rounding only
 
 /// The fraction of side `side` at which the place lies, or -1 if it is not on the side.
 double fraction_on_side(Index corner_count, Index side, const SurfacePlace& place) {
