@@ -4,6 +4,7 @@
 
 #include "batten/adaptive/cell_forest.h"
 #include "batten/patch/corner_parameters.h"
+#include "batten/patch/ring_steps.h"
 #include "batten/scheme/masks.h"
 
 namespace batten {

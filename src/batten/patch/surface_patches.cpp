@@ -7,6 +7,9 @@
 #include <string>
 
 #include "batten/error.h"
+#include "batten/patch/face_types.h"
+#include "batten/patch/pieces.h"
+#include "batten/patch/ring_steps.h"
 #include "batten/refine/child_topology.h"
 #include "batten/refine/refined_rows.h"
 #include "batten/refine/refinement.h"
@@ -78,6 +81,8 @@ const Scheme& SurfacePatches::base_scheme() const { return parts_->base_scheme; 
 bool SurfacePatches::has_first_step() const { return parts_->first.has_value(); }
 const Buffer<std::uint8_t>& SurfacePatches::holes() const { return parts_->holes; }
 
+int SurfacePatches::patch_size() const { return batten::patch_size(quads()); }
+
 Index SurfacePatches::control_face(Index base_face) const {
   return has_first_step() ? parts_->topology.face(base_face) : base_face;
 }
@@ -88,7 +93,7 @@ Values SurfacePatches::base_values(ConstValuesRef control, const Progress& progr
   return control;
 }
 
-VertexWeights SurfacePatches::by_control(VertexWeights of_base) const {
+std::vector<std::pair<Index, double>> SurfacePatches::by_control(std::vector<std::pair<Index, double>> of_base) const {
   if (has_first_step()) return (*parts_->pullback)(of_base);
   merge(of_base);
   return of_base;

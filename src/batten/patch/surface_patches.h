@@ -7,12 +7,19 @@
 /// patch, which is a polynomial, or a ring, whose ring type says how its children follow (patch/ring_steps.h).
 #pragma once
 #include <memory>
+#include <utility>
+#include <vector>
 
-#include "batten/patch/face_types.h"
-#include "batten/patch/pieces.h"
-#include "batten/patch/ring_steps.h"
+#include "batten/buffer.h"
+#include "batten/mesh/topology.h"
+#include "batten/scheme/scheme.h"
 
 namespace batten {
+
+class FaceTypes;
+class Pieces;
+class RingSteps;
+struct Piece;
 
 /// Immutable and safe to share between threads. A handle as Topology is: copies share what they stand for, so that
 /// several operators on one surface build it once. O(H) of time and memory, each part when it is first asked for.
@@ -31,7 +38,7 @@ class SurfacePatches {
   bool has_first_step() const;
   bool quads() const { return scheme().kind == SchemeKind::CatmullClark; }
   /// Control points of a regular patch.
-  int patch_size() const { return batten::patch_size(quads()); }
+  int patch_size() const;
 
   /// The control face that a base face is, or lies in.
   Index control_face(Index base_face) const;
@@ -41,15 +48,16 @@ class SurfacePatches {
   /// Control values of the base. control: V-by-k. Throws Error(BadShape), Error(Cancelled).
   Values base_values(ConstValuesRef control, const Progress& progress = {}) const;
   /// A row of weights of the base's vertices as weights of control vertices, ascending.
-  VertexWeights by_control(VertexWeights of_base) const;
+  std::vector<std::pair<Index, double>> by_control(std::vector<std::pair<Index, double>> of_base) const;
 
-  /// The base in pieces, kRingPieceLevels deep. Throws Error(BadArgument) for the Butterflies.
+  /// The base in pieces (patch/pieces.h), kRingPieceLevels deep. Throws Error(BadArgument) for the Butterflies.
   const Pieces& pieces() const;
-  /// The types of the pieces that are rings.
+  /// The types of the pieces that are rings (patch/ring_steps.h).
   const RingSteps& ring_types() const;
   Index ring_type(const Piece& piece) const;
 
-  /// The same for whole base faces, which have more types. Throws Error(BadArgument) for the Butterflies.
+  /// The same for whole base faces (patch/face_types.h), which have more types. Throws Error(BadArgument) for the
+  /// Butterflies.
   const FaceTypes& face_types() const;
 
  private:

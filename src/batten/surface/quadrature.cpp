@@ -7,6 +7,7 @@
 
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
+#include "batten/patch/face_types.h"
 
 namespace batten {
 
