@@ -1,4 +1,4 @@
-# Half of the time of a whole build is spent on reading Eigen, oneTBB and the standard library for each source. With
+# Half of the time of a whole build is spent on reading Eigen and the standard library for each source. With
 # BATTEN_PRECOMPILE they are read once for each target. The presets for programs use it. The preset for clang does not, and
 # therefore finds sources that lack an include.
 function(batten_precompile target)

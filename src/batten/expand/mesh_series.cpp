@@ -50,10 +50,9 @@ class KeptRows : public RowSource {
 };
 
 bool all_finite(ConstValuesRef values) {
-  return parallel_reduce(
-      values.rows(), true,
-      [&](std::ptrdiff_t begin, std::ptrdiff_t end) { return values.middleRows(begin, end - begin).allFinite(); },
-      [](bool a, bool b) { return a && b; });
+  return parallel_all_of(values.rows(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    return values.middleRows(begin, end - begin).allFinite();
+  });
 }
 
 /// The Butterfly schemes pass through their control points: nothing would happen.

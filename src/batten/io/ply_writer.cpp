@@ -27,16 +27,13 @@ struct Column {
 /// True if every value is exactly k / 255, as in a colour read from bytes.
 bool holds_bytes(const Values& values) {
   const double* data = values.data();
-  return parallel_reduce(
-      values.size(), true,
-      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-        for (std::ptrdiff_t i = begin; i < end; ++i) {
-          if (!(data[i] >= 0.0 && data[i] <= 1.0)) return false;
-          if (std::round(255.0 * data[i]) / 255.0 != data[i] || std::signbit(data[i])) return false;
-        }
-        return true;
-      },
-      [](bool a, bool b) { return a && b; });
+  return parallel_all_of(values.size(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (std::ptrdiff_t i = begin; i < end; ++i) {
+      if (!(data[i] >= 0.0 && data[i] <= 1.0)) return false;
+      if (std::round(255.0 * data[i]) / 255.0 != data[i] || std::signbit(data[i])) return false;
+    }
+    return true;
+  });
 }
 
 /// The property names of an attribute, without blanks, which PLY does not allow.

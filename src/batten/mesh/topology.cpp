@@ -14,6 +14,8 @@ namespace batten {
 
 namespace {
 
+constexpr std::ptrdiff_t kTestedPerBlock = 1 << 13;
+
 /// A half-edge at its origin, for sorting by destination.
 struct Spoke {
   Index destination;
@@ -22,13 +24,6 @@ struct Spoke {
     return destination != other.destination ? destination < other.destination : half_edge < other.half_edge;
   }
 };
-
-bool all_of(std::ptrdiff_t count, const Progress& progress,
-            const std::function<bool(std::ptrdiff_t, std::ptrdiff_t)>& test) {
-  return parallel_reduce(
-             count, 1, [&](std::ptrdiff_t begin, std::ptrdiff_t end) { return test(begin, end) ? 1 : 0; },
-             [](int a, int b) { return a & b; }, 1 << 13, progress) == 1;
-}
 
 bool has_repeated_vertex(const Index* vertices, Index count) {
   if (count > 16) {
@@ -69,7 +64,8 @@ bool offsets_and_indices_hold(const Mesh& mesh, const Progress& progress) {
   const auto points_hold = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     return mesh.points.middleRows(begin, end - begin).allFinite();
   };
-  return all_of(mesh.face_count(), progress, faces_hold) && all_of(mesh.points.rows(), {}, points_hold);
+  return parallel_all_of(mesh.face_count(), faces_hold, kTestedPerBlock, progress) &&
+         parallel_all_of(mesh.points.rows(), points_hold, kTestedPerBlock);
 }
 
 /// The half-edges that leave each vertex, sorted by destination: spokes[offsets[v] .. offsets[v + 1]).
@@ -135,7 +131,7 @@ bool sort_spokes(SpokeTable& table, const Progress& progress) {
     }
     return unique;
   };
-  return all_of(static_cast<std::ptrdiff_t>(table.offsets.size()) - 1, progress, sorted);
+  return parallel_all_of(static_cast<std::ptrdiff_t>(table.offsets.size()) - 1, sorted, kTestedPerBlock, progress);
 }
 
 Index find_spoke(const SpokeTable& table, Index from, Index to) {
@@ -201,7 +197,7 @@ bool start_fans(const SpokeTable& table, TopologyTables& tables, const Progress&
     }
     return true;
   };
-  return all_of(tables.vertex_count, progress, fans_hold);
+  return parallel_all_of(tables.vertex_count, fans_hold, kTestedPerBlock, progress);
 }
 
 /// Numbers edges by their lower half-edge, in order.
@@ -269,7 +265,7 @@ Index common_face_size(const Buffer<Index>& offsets) {
     }
     return true;
   };
-  return all_of(static_cast<std::ptrdiff_t>(offsets.size()) - 1, {}, same) ? size : 0;
+  return parallel_all_of(static_cast<std::ptrdiff_t>(offsets.size()) - 1, same, kTestedPerBlock) ? size : 0;
 }
 
 bool build(const Mesh& mesh, TopologyTables& tables, const Progress& progress) {

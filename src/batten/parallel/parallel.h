@@ -2,36 +2,32 @@
 ///
 /// Ranges are cut into blocks of a fixed size, never by the number of threads; a reduction combines the blocks' results
 /// in a fixed tree. With oneTBB the blocks run on its threads, without it one after the other.
+///
+/// Every loop is isolated: a thread that waits for the end of a loop takes up blocks of that loop and of loops inside
+/// it, and nothing else. So a loop may stand inside std::call_once or between uses of a thread_local object, also where
+/// the caller is a oneTBB task itself. A loop is not cancelled together with the caller's task group either: it visits
+/// every index or throws.
 #pragma once
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <type_traits>
 #include <vector>
 
 #include "batten/parallel/threads.h"
 #include "batten/progress.h"
-
-#ifdef BATTEN_WITH_TBB
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#endif
 
 namespace batten {
 
 inline constexpr std::ptrdiff_t kDefaultBlock = 4096;
 
 /// Calls body(block) for each block in [begin, end).
-template <typename Body>
-void parallel_blocks(std::ptrdiff_t begin, std::ptrdiff_t end, const Body& body) {
-#ifdef BATTEN_WITH_TBB
-  if (end - begin > 1) {
-    tbb::parallel_for(tbb::blocked_range<std::ptrdiff_t>(begin, end, 1), [&](const auto& range) {
-      for (std::ptrdiff_t i = range.begin(); i != range.end(); ++i) body(i);
-    });
-    return;
-  }
-#endif
-  for (std::ptrdiff_t i = begin; i < end; ++i) body(i);
-}
+void parallel_blocks(std::ptrdiff_t begin, std::ptrdiff_t end, const std::function<void(std::ptrdiff_t)>& body);
+
+/// Runs two pieces of work that do not depend on each other, the first one on the calling thread: it may report
+/// progress. Throws what a piece throws, after both have ended.
+void parallel_both(const std::function<void()>& first, const std::function<void()>& second);
 
 /// Calls body(block) for each block in [0, count). With a progress callback some blocks a thread run between its calls:
 /// a block should take a millisecond or less.
@@ -41,7 +37,7 @@ void parallel_for_each(std::ptrdiff_t count, const Body& body, const Progress& p
   const std::ptrdiff_t step = progress ? kBlocksBetweenCalls * thread_count() : count;
   for (std::ptrdiff_t begin = 0; begin < count; begin += step) {
     report_progress(progress, static_cast<double>(begin) / static_cast<double>(count));
-    parallel_blocks(begin, std::min(begin + step, count), body);
+    parallel_blocks(begin, std::min(begin + step, count), std::cref(body));
   }
 }
 
@@ -50,18 +46,6 @@ void parallel_for_each(std::ptrdiff_t count, const Body& body, const Progress& p
 template <typename T>
 T atomic_add(T& counter, T amount) {
   return __atomic_fetch_add(&counter, amount, __ATOMIC_RELAXED);
-}
-
-/// Runs two pieces of work that do not depend on each other, the first one on the calling thread.
-template <typename First, typename Second>
-void parallel_both(const First& first, const Second& second) {
-  parallel_for_each(2, [&](std::ptrdiff_t i) {
-    if (i == 0) {
-      first();
-    } else {
-      second();
-    }
-  });
 }
 
 inline std::ptrdiff_t block_count(std::ptrdiff_t count, std::ptrdiff_t block = kDefaultBlock) {
@@ -82,9 +66,12 @@ void parallel_for(std::ptrdiff_t count, const Body& body, std::ptrdiff_t block =
 }
 
 /// Combines map(begin, end) over the blocks of [0, count) pairwise, in a tree that depends on count and block only.
+/// Memory: one T a block.
 template <typename T, typename Map, typename Combine>
 T parallel_reduce(std::ptrdiff_t count, T identity, const Map& map, const Combine& combine,
                   std::ptrdiff_t block = kDefaultBlock, const Progress& progress = {}) {
+  static_assert(!std::is_same_v<T, bool>,
+                "the bits of a std::vector<bool> share words that two threads would write at once: parallel_all_of");
   std::vector<T> parts(static_cast<std::size_t>(block_count(count, block)), identity);
   parallel_for(
       count, [&](std::ptrdiff_t begin, std::ptrdiff_t end) { parts[begin / block] = map(begin, end); }, block,
@@ -93,6 +80,17 @@ T parallel_reduce(std::ptrdiff_t count, T identity, const Map& map, const Combin
     for (std::size_t i = 0; i + width < parts.size(); i += 2 * width) parts[i] = combine(parts[i], parts[i + width]);
   }
   return parts.empty() ? identity : parts[0];
+}
+
+/// True where test(begin, end) is true for every block of [0, count). All blocks are tested, also after one has failed.
+template <typename Test>
+bool parallel_all_of(std::ptrdiff_t count, const Test& test, std::ptrdiff_t block = kDefaultBlock,
+                     const Progress& progress = {}) {
+  const auto holds = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    return static_cast<std::uint8_t>(test(begin, end) ? 1 : 0);
+  };
+  const auto both = [](std::uint8_t a, std::uint8_t b) { return static_cast<std::uint8_t>(a & b); };
+  return parallel_reduce(count, std::uint8_t{1}, holds, both, block, progress) != 0;
 }
 
 }  // namespace batten

@@ -27,12 +27,9 @@ void check_mesh(const Mesh& mesh, const char* what) {
 }
 
 void check_finite(ConstValuesRef values, const char* what) {
-  const bool finite = parallel_reduce<int>(
-      values.rows(), 1,
-      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-        return static_cast<int>(values.middleRows(begin, end - begin).allFinite());
-      },
-      [](int a, int b) { return a & b; });
+  const bool finite = parallel_all_of(values.rows(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    return values.middleRows(begin, end - begin).allFinite();
+  });
   if (finite) return;
   for (Eigen::Index i = 0; i < values.rows(); ++i) {
     if (values.row(i).allFinite()) continue;

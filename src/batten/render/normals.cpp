@@ -186,19 +186,16 @@ void compute_normals(const Mesh& mesh, const Buffer<std::uint32_t>& triangle_cor
   const auto vertices = static_cast<std::size_t>(mesh.vertex_count());
   triangles.normals.resize(vertices + mesh.face_vertices.size());
   Buffer<std::uint8_t> split(vertices);
-  const int any_split = parallel_reduce<int>(
-      mesh.vertex_count(), 0,
-      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-        VertexFan fan(mesh, incidence, triangles.points, face_normals);
-        int any = 0;
-        for (auto v = static_cast<Index>(begin); v < end; ++v) {
-          split[v] = fan.process(v, triangles.normals) ? 1 : 0;
-          any |= split[v];
-        }
-        return any;
-      },
-      [](int a, int b) { return a | b; });
-  if (any_split == 0) return;
+  const bool all_whole = parallel_all_of(mesh.vertex_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    VertexFan fan(mesh, incidence, triangles.points, face_normals);
+    bool whole = true;
+    for (auto v = static_cast<Index>(begin); v < end; ++v) {
+      split[v] = fan.process(v, triangles.normals) ? 1 : 0;
+      whole &= split[v] == 0;
+    }
+    return whole;
+  });
+  if (all_whole) return;
   triangles.normal_rows.resize(triangle_corners.size());
   parallel_for(static_cast<std::ptrdiff_t>(triangle_corners.size()), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (std::ptrdiff_t c = begin; c < end; ++c) {
