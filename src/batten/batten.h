@@ -31,6 +31,8 @@
 #include "batten/nearest/nearest_point.h"
 #include "batten/nearest/surface_side.h"
 #include "batten/parallel/threads.h"
+#include "batten/patch/surface_patches.h"
+#include "batten/patch/surface_place.h"
 #include "batten/refine/refined_mesh.h"
 #include "batten/refine/refinement.h"
 #include "batten/scheme/scheme.h"

@@ -49,7 +49,7 @@ TEST(NearestPointPole, NoSampleIsNearerThanTheAnswerBesideFansOfManyTriangles) {
 template <typename Net>
 void expect_few_weights(const Topology& base, const Scheme& scheme) {
   const Pieces pieces(base, scheme, kRingPieceLevels, Pieces::Rest::Rings);
-  RingSteps steps(scheme);
+  RingTypes steps(scheme);
   const CellShapes<Net> shapes(pieces, steps);
   ASSERT_GE(shapes.most_points(), kPoleValence);
   for (const Piece* piece = pieces.begin(0); piece != pieces.end(base.face_count() - 1); ++piece) {

@@ -4,7 +4,7 @@
 
 #include "batten/adaptive/cell_forest.h"
 #include "batten/patch/corner_parameters.h"
-#include "batten/patch/ring_steps.h"
+#include "batten/patch/ring_types.h"
 #include "batten/scheme/masks.h"
 
 namespace batten {
@@ -142,7 +142,7 @@ void CellNets::find(CellNet& net) const {
   if (piece == pieces.end(net.face)) return;
   const bool patch = piece->kind == Piece::Kind::Patch;
   net.kind = patch ? CellNet::Kind::Patch : CellNet::Kind::Ring;
-  net.ring = patch ? RingSteps::kPatch : patches_.ring_type(*piece);
+  net.ring = patch ? RingTypes::kPatch : patches_.ring_type(*piece);
   FaceRing scratch;
   const std::span<const Index> rows =
       patch ? std::span(pieces.rows(*piece), static_cast<std::size_t>(patches_.patch_size()))
@@ -186,10 +186,10 @@ void CellNets::halve_patch(const CellNet& net, std::array<CellNet, 4>& children)
 
 void CellNets::halve_ring(const CellNet& net, std::array<CellNet, 4>& children) const {
   for (int k = 0; k < 4; ++k) {
-    const RingSteps::Child& step = patches_.ring_types().child(net.ring, k);
+    const RingTypes::Child& step = patches_.ring_types().child(net.ring, k);
     CellNet& child = children[k];
     child.ring = step.type;
-    child.kind = step.type == RingSteps::kPatch ? CellNet::Kind::Patch : CellNet::Kind::Ring;
+    child.kind = step.type == RingTypes::kPatch ? CellNet::Kind::Patch : CellNet::Kind::Ring;
     child.points.resize(step.rows.count(), 3);
     for (Index r = 0; r < step.rows.count(); ++r) {
       Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
@@ -198,7 +198,7 @@ void CellNets::halve_ring(const CellNet& net, std::array<CellNet, 4>& children) 
       }
       child.points.row(r) = sum;
     }
-    if (step.type != RingSteps::kPatch) continue;
+    if (step.type != RingTypes::kPatch) continue;
     complete_patch(quads(), step.patch.rows.data(), child.points.data(), 3);
   }
 }

@@ -51,21 +51,21 @@ std::size_t most_weights(const SparseRows& left, const SparseRows& right, Index 
 }  // namespace
 
 template <typename Net>
-CellShapes<Net>::CellShapes(const Pieces& pieces, RingSteps& steps) {
+CellShapes<Net>::CellShapes(const SurfacePatches& patches) {
   for (int halvings = 0; halvings <= kMostHalvings; ++halvings) {
     const auto first = static_cast<Index>(shapes_.size());
     add_regular(spline_matrix<Net>(), {}, halvings);
     regular_[halvings] = {first, static_cast<Index>(shapes_.size()) - first};
   }
-  FaceRing ring;
-  for (const Pieces::SharedRing& shared : pieces.shared_rings()) {
-    ring.gather(shared.topology, pieces.scheme(), 0);
-    const Index type = steps.type_of(shared.topology, ring);
+  const Pieces& pieces = patches.pieces();
+  for (std::size_t i = 0; i < pieces.shared_rings().size(); ++i) {
+    const Pieces::SharedRing& shared = pieces.shared_rings()[i];
+    const Index type = patches.ring_type(static_cast<std::int32_t>(i));
     const Index count = shared.topology.vertex_count();
     int levels = kRingLevels;
     for (Index size = shared.size; size < (Index{1} << pieces.levels()); size *= 2) --levels;
     const auto first = static_cast<Index>(shapes_.size());
-    add_ring(steps, type, {identity_rows(count), count}, {}, std::max(levels, 1));
+    add_ring(patches.ring_types(), type, {identity_rows(count), count}, {}, std::max(levels, 1));
     irregular_.push_back({first, static_cast<Index>(shapes_.size()) - first});
   }
 }
@@ -79,7 +79,7 @@ void CellShapes<Net>::add_shape(const Placement& placement, Index type, const Ma
 template <typename Net>
 void CellShapes<Net>::add_regular(const SplineMatrix<Net>& matrix, const Placement& placement, int halvings) {
   if (halvings == 0) {
-    shapes_.push_back({placement, RingSteps::kPatch, Net::kPoints, {}});
+    shapes_.push_back({placement, RingTypes::kPatch, Net::kPoints, {}});
     regular_matrices_.push_back(matrix);
     return;
   }
@@ -89,7 +89,7 @@ void CellShapes<Net>::add_regular(const SplineMatrix<Net>& matrix, const Placeme
 }
 
 template <typename Net>
-void CellShapes<Net>::add_ring(const RingSteps& steps, Index type, const Matrix& ring, const Placement& placement,
+void CellShapes<Net>::add_ring(const RingTypes& steps, Index type, const Matrix& ring, const Placement& placement,
                                int levels) {
   const std::size_t most = kMostWeightsAPoint * static_cast<std::size_t>(ring.columns);
   for (int number = 0; number < 4 && levels > 0; ++number) {
@@ -100,15 +100,15 @@ void CellShapes<Net>::add_ring(const RingSteps& steps, Index type, const Matrix&
     return;
   }
   for (int number = 0; number < 4; ++number) {
-    const RingSteps::Child& child = steps.child(type, number);
+    const RingTypes::Child& child = steps.child(type, number);
     Matrix part{product(child.rows, ring.rows, ring.columns), ring.columns};
     const Placement at = placement.of(half<Net>(number));
-    if (child.type != RingSteps::kPatch) {
+    if (child.type != RingTypes::kPatch) {
       add_ring(steps, child.type, part, at, levels - 1);
       continue;
     }
     part.rows = product(net_rows<Net>(child.patch), part.rows, ring.columns);
-    add_shape(at, RingSteps::kPatch, part);
+    add_shape(at, RingTypes::kPatch, part);
   }
 }
 
@@ -123,14 +123,14 @@ void CellShapes<Net>::points(Index shape, const Double4* control, Double4* point
 }
 
 template <typename Net>
-void ring_child_points(const RingSteps::Child& child, const Double4* ring, Double4* points) {
+void ring_child_points(const RingTypes::Child& child, const Double4* ring, Double4* points) {
   for (Index r = 0; r < child.rows.count(); ++r) points[r] = combine(child.rows, r, ring);
-  if (child.type == RingSteps::kPatch) complete_patch<Net>(child.patch.rows.data(), points);
+  if (child.type == RingTypes::kPatch) complete_patch<Net>(child.patch.rows.data(), points);
 }
 
 template class CellShapes<QuadNet>;
 template class CellShapes<TriangleNet>;
-template void ring_child_points<QuadNet>(const RingSteps::Child&, const Double4*, Double4*);
-template void ring_child_points<TriangleNet>(const RingSteps::Child&, const Double4*, Double4*);
+template void ring_child_points<QuadNet>(const RingTypes::Child&, const Double4*, Double4*);
+template void ring_child_points<TriangleNet>(const RingTypes::Child&, const Double4*, Double4*);
 
 }  // namespace batten

@@ -5,14 +5,15 @@
 
 #include "batten/nearest/bezier_net.h"
 #include "batten/patch/pieces.h"
-#include "batten/patch/ring_steps.h"
+#include "batten/patch/ring_types.h"
+#include "batten/patch/surface_patches.h"
 
 namespace batten {
 
 /// A part of a piece: a net, or the one-ring of a part that is irregular.
 struct CellShape {
   Placement placement;  ///< in the piece
-  Index type;           ///< of RingSteps; kPatch for a net
+  Index type;           ///< of RingTypes; kPatch for a net
   Index rows;           ///< points of the net or of the ring
   SparseRows weights;   ///< on the control points of the piece; without rows for parts of regular pieces
 };
@@ -23,7 +24,7 @@ class CellShapes {
  public:
   static constexpr int kMostHalvings = 3;
 
-  CellShapes(const Pieces& pieces, RingSteps& steps);
+  explicit CellShapes(const SurfacePatches& patches);
 
   struct Range {
     Index first;
@@ -45,7 +46,7 @@ class CellShapes {
     Index columns;
   };
   void add_regular(const SplineMatrix<Net>& matrix, const Placement& placement, int halvings);
-  void add_ring(const RingSteps& steps, Index type, const Matrix& ring, const Placement& placement, int levels);
+  void add_ring(const RingTypes& steps, Index type, const Matrix& ring, const Placement& placement, int levels);
   void add_shape(const Placement& placement, Index type, const Matrix& matrix);
 
   std::vector<CellShape> shapes_;
@@ -63,6 +64,6 @@ void complete_patch(const Index* rows, Double4* points) {
 
 /// The points of a ring's child: `child.rows` of the ring, completed where it is a patch.
 template <typename Net>
-void ring_child_points(const RingSteps::Child& child, const Double4* ring, Double4* points);
+void ring_child_points(const RingTypes::Child& child, const Double4* ring, Double4* points);
 
 }  // namespace batten

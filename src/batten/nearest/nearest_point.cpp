@@ -53,9 +53,9 @@ Double4 vector_of(const Eigen::Vector3d& point) { return Double4{point[0], point
 }  // namespace
 
 struct NearestPoints::Parts {
-  explicit Parts(const Topology& topology_in) : topology(topology_in) {}
+  explicit Parts(const SurfacePatches& patches_in) : patches(patches_in) {}
 
-  Topology topology;
+  SurfacePatches patches;
   std::variant<std::monostate, SurfaceCells<QuadNet>, SurfaceCells<TriangleNet>> cells;
   Eigen::Vector3d centre;
   double diagonal = 0.0;
@@ -101,19 +101,18 @@ void NearestPoints::Parts::measure() {
   tolerance = std::max(kTolerance * diagonal, 64.0 * std::numeric_limits<double>::epsilon() * size);
 }
 
-NearestPoints::NearestPoints(const Topology& topology, const Scheme& scheme, ConstValuesRef control,
-                             const Progress& progress)
-    : parts_(std::make_unique<Parts>(topology)) {
-  require_control_points(topology, control);
-  if (topology.face_count() == 0)
+NearestPoints::NearestPoints(const SurfacePatches& patches, ConstValuesRef control, const Progress& progress)
+    : parts_(std::make_unique<Parts>(patches)) {
+  require_control_points(patches.topology(), control);
+  if (patches.topology().face_count() == 0)
     throw Error(ErrorCode::BadArgument, "there are no faces, so no surface to be near to");
   const auto build = [&](auto net) {
     using Net = decltype(net);
-    const auto& cells = parts_->cells.emplace<SurfaceCells<Net>>(topology, scheme, control, progress);
+    const auto& cells = parts_->cells.emplace<SurfaceCells<Net>>(patches, control, progress);
     if (cells.cell_count() == 0)
       throw Error(ErrorCode::BadArgument, "all faces are holes, so there is no surface to be near to");
   };
-  if (scheme.kind == SchemeKind::CatmullClark) {
+  if (patches.quads()) {
     build(QuadNet());
   } else {
     build(TriangleNet());
@@ -121,8 +120,12 @@ NearestPoints::NearestPoints(const Topology& topology, const Scheme& scheme, Con
   parts_->measure();
 }
 
+NearestPoints::NearestPoints(const Topology& topology, const Scheme& scheme, ConstValuesRef control,
+                             const Progress& progress)
+    : NearestPoints(SurfacePatches(topology, scheme), control, progress) {}
+
 void NearestPoints::set_control(ConstValuesRef control, const Progress& progress) {
-  require_control_points(parts_->topology, control);
+  require_control_points(parts_->patches.topology(), control);
   const auto run = [&](auto& cells) {
     if constexpr (!std::is_same_v<std::decay_t<decltype(cells)>, std::monostate>) cells.set_control(control, progress);
   };

@@ -28,6 +28,7 @@ class NearestPoints {
  public:
   /// control: V-by-3. The callback is called by the calling thread only. Throws Error(NotTriangles, BadShape,
   /// NotFinite, Cancelled), and Error(BadArgument) where there is no face to be near to.
+  NearestPoints(const SurfacePatches& patches, ConstValuesRef control, const Progress& progress = {});
   NearestPoints(const Topology& topology, const Scheme& scheme, ConstValuesRef control, const Progress& progress = {});
   ~NearestPoints();
   NearestPoints(NearestPoints&&) noexcept;

@@ -86,7 +86,7 @@ void NearestSearch<Net>::visit(Index place) {
   rings_.resize(std::max<std::size_t>(static_cast<std::size_t>(shape.rows), Net::kPoints));
   cells_.points(cell, query_, scratch_, rings_.data());
   const Placement placement = cells_.placement(cell);
-  if (shape.type == RingSteps::kPatch) {
+  if (shape.type == RingTypes::kPatch) {
     search_net(rings_.data(), placement);
     return;
   }
@@ -210,17 +210,17 @@ void NearestSearch<Net>::search_ring(Index type, std::size_t first, const Placem
   if (Net::kCorners == 3) order[3] = {dot(middle, middle), 3};
   std::sort(order.begin(), order.end());
   for (const auto& each : order) {
-    search_ring_child(cells_.steps().child(type, each.second), first, placement.of(half<Net>(each.second)));
+    search_ring_child(cells_.ring_types().child(type, each.second), first, placement.of(half<Net>(each.second)));
   }
 }
 
 template <typename Net>
-void NearestSearch<Net>::search_ring_child(const RingSteps::Child& child, std::size_t first,
+void NearestSearch<Net>::search_ring_child(const RingTypes::Child& child, std::size_t first,
                                            const Placement& placement) {
   const std::size_t own = rings_.size();
   rings_.resize(own + static_cast<std::size_t>(child.rows.count()));
   ring_child_points<Net>(child, &rings_[first], &rings_[own]);
-  if (child.type == RingSteps::kPatch) {
+  if (child.type == RingTypes::kPatch) {
     std::array<Double4, Net::kPoints> net;
     spline_matrix<Net>().apply(&rings_[own], net.data());
     search_net(net.data(), placement);

@@ -39,7 +39,7 @@ class NearestSearch {
   void search_pending();
   bool search_border(const Double4* net, const Placement& placement);
   void search_ring(Index type, std::size_t first, const Placement& placement);
-  void search_ring_child(const RingSteps::Child& child, std::size_t first, const Placement& placement);
+  void search_ring_child(const RingTypes::Child& child, std::size_t first, const Placement& placement);
   bool descend(const Double4* net, const NetFrame<Net>& frame, double modulus, const Placement& placement,
                double& least);
   void offer_corners(const Placement& placement);

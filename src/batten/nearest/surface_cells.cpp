@@ -14,33 +14,17 @@ constexpr double kMostBend = 0.3;
 /// For their boxes rings are halved so many times.
 constexpr int kBoundLevels = 2;
 
-Buffer<Double4> vectors_of(ConstValuesRef values) {
-  Buffer<Double4> vectors(static_cast<std::size_t>(values.rows()));
-  parallel_for(values.rows(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    for (std::ptrdiff_t i = begin; i < end; ++i) vectors[i] = Double4{values(i, 0), values(i, 1), values(i, 2), 0.0};
-  });
-  return vectors;
-}
-
 }  // namespace
 
 template <typename Net>
-SurfaceCells<Net>::SurfaceCells(const Topology& topology, const Scheme& scheme, ConstValuesRef control,
-                                const Progress& progress)
-    : steps_(scheme) {
+SurfaceCells<Net>::SurfaceCells(const SurfacePatches& patches, ConstValuesRef control, const Progress& progress)
+    : patches_(patches), shapes_(patches), limit_matrix_(patches.base(), patches.base_scheme()) {
   constexpr double kCut = 0.3;
   constexpr double kChosen = 0.4;
   constexpr double kSorted = 0.75;
-  report_progress(progress, 0.0);
-  if (needs_first_step(topology, scheme)) first_ = std::make_unique<Refinement>(topology, scheme);
-  const Scheme after = scheme.after_first_step();
-  pieces_ = std::make_unique<Pieces>(first_ == nullptr ? topology : first_->child(), after, kRingPieceLevels,
-                                     Pieces::Rest::Rings);
-  shapes_ = std::make_unique<CellShapes<Net>>(*pieces_, steps_);
-  limit_matrix_ = std::make_unique<LimitMatrix>(base(), after);
   report_progress(progress, kCut);
   control_ = control_of(control);
-  choose_cells(base_holes(topology, scheme), progress_within(progress, kCut, kChosen));
+  choose_cells(progress_within(progress, kCut, kChosen));
   sort_cells(progress_within(progress, kChosen, kSorted));
   tree_ = BoxTree(cell_count());
   fit(control_, tree_, progress_within(progress, kSorted, 1.0));
@@ -57,27 +41,12 @@ void SurfaceCells<Net>::set_control(ConstValuesRef control, const Progress& prog
   std::swap(tree_, spare_);
 }
 
-/// As surface_holes has them; quad h of a first refinement lies in the face of corner h.
-template <typename Net>
-Buffer<std::uint8_t> SurfaceCells<Net>::base_holes(const Topology& topology, const Scheme& scheme) const {
-  Buffer<std::uint8_t> holes = surface_holes(topology, scheme);
-  if (first_ == nullptr || holes.empty()) return holes;
-  Buffer<std::uint8_t> of_quads(static_cast<std::size_t>(base().face_count()));
-  for (Index h = 0; h < base().face_count(); ++h) of_quads[h] = holes[topology.face(h)];
-  return of_quads;
-}
-
 template <typename Net>
 typename SurfaceCells<Net>::Control SurfaceCells<Net>::control_of(ConstValuesRef values) const {
-  return first_ == nullptr ? control_of_base(values) : control_of_base(first_->apply(values));
-}
-
-template <typename Net>
-typename SurfaceCells<Net>::Control SurfaceCells<Net>::control_of_base(ConstValuesRef base_values) const {
+  const Values base_values = patches_.base_values(values);
   Control control;
-  const LevelValues levels(*pieces_, base_values);
-  for (int level = 0; level <= pieces_->region_count(); ++level) control.levels.push_back(vectors_of(levels.at(level)));
-  control.limits = vectors_of(limit_matrix_->apply(base_values));
+  control.levels = level_points(patches_, base_values);
+  control.limits = vectors_of(limit_matrix_.apply(base_values));
   const Eigen::RowVector3d middle = 0.5 * (base_values.colwise().minCoeff() + base_values.colwise().maxCoeff());
   control.centre = Double4{middle[0], middle[1], middle[2], 0.0};
   const double size = (base_values.rowwise() - middle).cwiseAbs().maxCoeff();
@@ -92,11 +61,11 @@ Index SurfaceCells<Net>::gather(const Control& control, const Piece& piece, cons
   const Double4* values = control.levels[piece.level].data();
   Double4* points = scratch.control.data();
   if (piece.kind != Piece::Kind::Patch) {
-    const std::span<const Index> ring = pieces_->ring(piece, scratch.ring);
+    const std::span<const Index> ring = patches_.pieces().ring(piece, scratch.ring);
     for (std::size_t i = 0; i < ring.size(); ++i) points[i] = values[ring[i]] - origin;
     return static_cast<Index>(ring.size());
   }
-  const Index* rows = pieces_->rows(piece);
+  const Index* rows = patches_.pieces().rows(piece);
   bool complete = true;
   for (Index i = 0; i < Net::kSplinePoints; ++i) {
     if (rows[i] == RegularPatch::kMissing) {
@@ -111,10 +80,10 @@ Index SurfaceCells<Net>::gather(const Control& control, const Piece& piece, cons
 
 template <typename Net>
 Placement SurfaceCells<Net>::placement(const Cell& cell) const {
-  const Piece& piece = pieces_->begin(0)[cell.piece];
-  const double step = 1.0 / static_cast<double>(Index{1} << pieces_->levels());
+  const Piece& piece = patches_.pieces().begin(0)[cell.piece];
+  const double step = 1.0 / static_cast<double>(Index{1} << patches_.pieces().levels());
   const Placement at{piece.x * step, piece.y * step, (piece.turned ? -step : step) * piece.size};
-  return at.of(shapes_->shape(cell.shape).placement);
+  return at.of(shapes_.shape(cell.shape).placement);
 }
 
 /// How many times a regular piece is halved: each halving halves the bend.
@@ -130,9 +99,10 @@ int SurfaceCells<Net>::halvings(const Piece& piece, Scratch& scratch) const {
 }
 
 template <typename Net>
-void SurfaceCells<Net>::choose_cells(const Buffer<std::uint8_t>& holes, const Progress& progress) {
-  const Piece* pieces = pieces_->begin(0);
-  const auto count = static_cast<Index>(pieces_->end(base().face_count() - 1) - pieces);
+void SurfaceCells<Net>::choose_cells(const Progress& progress) {
+  const Buffer<std::uint8_t>& holes = patches_.holes();
+  const Piece* pieces = patches_.pieces().begin(0);
+  const auto count = static_cast<Index>(patches_.pieces().end(base().face_count() - 1) - pieces);
   Buffer<typename CellShapes<Net>::Range> ranges(static_cast<std::size_t>(count));
   parallel_for(
       count,
@@ -143,9 +113,9 @@ void SurfaceCells<Net>::choose_cells(const Buffer<std::uint8_t>& holes, const Pr
           if (!holes.empty() && holes[piece.face] != 0) {
             ranges[i] = {0, 0};
           } else if (piece.kind == Piece::Kind::Patch) {
-            ranges[i] = shapes_->regular(halvings(piece, scratch));
+            ranges[i] = shapes_.regular(halvings(piece, scratch));
           } else {
-            ranges[i] = shapes_->irregular(piece.shared_ring);
+            ranges[i] = shapes_.irregular(piece.shared_ring);
           }
         }
       },
@@ -219,15 +189,15 @@ void SurfaceCells<Net>::fit(const Control& control, BoxTree& tree, const Progres
 template <typename Net>
 void SurfaceCells<Net>::find_bounds(const Control& control, const Cell& cell, Bounds& bounds) const {
   if (cell.piece != bounds.piece) {
-    const Piece& piece = pieces_->begin(0)[cell.piece];
+    const Piece& piece = patches_.pieces().begin(0)[cell.piece];
     const Index count = gather(control, piece, control.centre, bounds.scratch);
     for (Index i = 0; i < count; ++i) bounds.scratch.control[i] *= control.scale;
     bounds.piece = cell.piece;
   }
   Double4* points = bounds.points.data();
-  shapes_->points(cell.shape, bounds.scratch.control.data(), points);
+  shapes_.points(cell.shape, bounds.scratch.control.data(), points);
   const CellShape& cell_shape = shape(cell);
-  if (cell_shape.type == RingSteps::kPatch) {
+  if (cell_shape.type == RingTypes::kPatch) {
     bounds.hull = {points, static_cast<std::size_t>(Net::kPoints)};
     bounds.along = Net::mean_du(points);
     bounds.across = Net::mean_dv(points);
@@ -244,10 +214,10 @@ template <typename Net>
 void SurfaceCells<Net>::add_ring_bounds(Index type, const Double4* ring, int levels,
                                         std::vector<Double4>& bounds) const {
   for (int number = 0; number < 4; ++number) {
-    const RingSteps::Child& child = steps_.child(type, number);
+    const RingTypes::Child& child = patches_.ring_types().child(type, number);
     std::vector<Double4> points(static_cast<std::size_t>(std::max(child.rows.count(), Index{Net::kPoints})));
     ring_child_points<Net>(child, ring, points.data());
-    if (child.type == RingSteps::kPatch) {
+    if (child.type == RingTypes::kPatch) {
       spline_matrix<Net>().apply(points.data(), points.data());
       bounds.insert(bounds.end(), points.begin(), points.begin() + Net::kPoints);
     } else if (levels == 1) {

@@ -4,7 +4,6 @@
 /// A cell's net follows from the control points of its piece (patch/pieces.h) by a matrix that all pieces alike share,
 /// so a cell takes 8 bytes and its box 64.
 #pragma once
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -20,13 +19,13 @@ template <typename Net>
 class SurfaceCells {
  public:
   /// control: V-by-3, finite. Faces of holes have no cells. Throws what Pieces throws, and Error(Cancelled).
-  SurfaceCells(const Topology& topology, const Scheme& scheme, ConstValuesRef control, const Progress& progress);
+  SurfaceCells(const SurfacePatches& patches, ConstValuesRef control, const Progress& progress);
 
   /// Moves the surface: V-by-3, finite. Throws Error(Cancelled), and then nothing has changed.
   void set_control(ConstValuesRef control, const Progress& progress);
 
-  const Topology& base() const { return pieces_->topology(0); }
-  const RingSteps& steps() const { return steps_; }
+  const Topology& base() const { return patches_.base(); }
+  const RingTypes& ring_types() const { return patches_.ring_types(); }
   const BoxTree& tree() const { return tree_; }
   /// The tree has (point - centre) * scale of a point, which is about 1: squares of floats must not leave their range.
   const Double4& centre() const { return control_.centre; }
@@ -37,10 +36,10 @@ class SurfaceCells {
     Index piece;
     Index shape;
   };
-  const CellShape& shape(const Cell& cell) const { return shapes_->shape(cell.shape); }
+  const CellShape& shape(const Cell& cell) const { return shapes_.shape(cell.shape); }
   Index cell_count() const { return static_cast<Index>(cells_.size()); }
   const Cell& cell(Index place) const { return cells_[place]; }
-  Index face(const Cell& cell) const { return pieces_->begin(0)[cell.piece].face; }
+  Index face(const Cell& cell) const { return patches_.pieces().begin(0)[cell.piece].face; }
   Placement placement(const Cell& cell) const;  ///< in its face
   /// Memory of one thread.
   struct Scratch {
@@ -51,11 +50,11 @@ class SurfaceCells {
   };
   /// The cell's net or ring as seen from a point. `scratch` is made with most_points().
   void points(const Cell& cell, const Double4& origin, Scratch& scratch, Double4* points) const {
-    gather(control_, pieces_->begin(0)[cell.piece], origin, scratch);
-    shapes_->points(cell.shape, scratch.control.data(), points);
+    gather(control_, patches_.pieces().begin(0)[cell.piece], origin, scratch);
+    shapes_.points(cell.shape, scratch.control.data(), points);
   }
   /// The most points that a cell has, or control points that a piece has.
-  std::size_t most_points() const { return static_cast<std::size_t>(shapes_->most_points()); }
+  std::size_t most_points() const { return static_cast<std::size_t>(shapes_.most_points()); }
   /// The limit position of a vertex of the base.
   const Double4& limit_position(Index vertex) const { return control_.limits[vertex]; }
 
@@ -80,22 +79,18 @@ class SurfaceCells {
     Double4 across{};
   };
 
-  Control control_of(ConstValuesRef values) const;
-  Control control_of_base(ConstValuesRef base_values) const;
+  Control control_of(ConstValuesRef control) const;
   Index gather(const Control& control, const Piece& piece, const Double4& origin, Scratch& scratch) const;
   int halvings(const Piece& piece, Scratch& scratch) const;
-  void choose_cells(const Buffer<std::uint8_t>& holes, const Progress& progress);
+  void choose_cells(const Progress& progress);
   void sort_cells(const Progress& progress);
   void fit(const Control& control, BoxTree& tree, const Progress& progress) const;
   void find_bounds(const Control& control, const Cell& cell, Bounds& bounds) const;
   void add_ring_bounds(Index type, const Double4* ring, int levels, std::vector<Double4>& bounds) const;
-  Buffer<std::uint8_t> base_holes(const Topology& topology, const Scheme& scheme) const;
 
-  std::unique_ptr<Refinement> first_;
-  std::unique_ptr<Pieces> pieces_;
-  RingSteps steps_;
-  std::unique_ptr<CellShapes<Net>> shapes_;
-  std::unique_ptr<LimitMatrix> limit_matrix_;
+  SurfacePatches patches_;
+  CellShapes<Net> shapes_;
+  LimitMatrix limit_matrix_;
   Buffer<Cell> cells_;
   Control control_;
   BoxTree tree_;

@@ -22,7 +22,7 @@ FaceTypes::FaceTypes(const Topology& base, const Scheme& base_scheme)
     const bool at_pole = !regular && poles.find(side, key);
     const auto known = at_pole ? types_at_poles.find(key) : types_at_poles.end();
     if (regular) {
-      types_.push_back(RingSteps::kPatch);
+      types_.push_back(RingTypes::kPatch);
     } else if (known != types_at_poles.end()) {
       types_.push_back(known->second);
     } else {

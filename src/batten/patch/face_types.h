@@ -4,7 +4,7 @@
 
 #include "batten/patch/face_ring.h"
 #include "batten/patch/regular_patch.h"
-#include "batten/patch/ring_steps.h"
+#include "batten/patch/ring_types.h"
 
 namespace batten {
 
@@ -15,9 +15,9 @@ class FaceTypes {
   /// O(n). Throws Error(BadArgument) for the Butterflies.
   FaceTypes(const Topology& base, const Scheme& base_scheme);
 
-  /// The ring type of a face, or RingSteps::kPatch.
+  /// The ring type of a face, or RingTypes::kPatch.
   Index type(Index face) const { return types_[face]; }
-  const RingSteps& ring_types() const { return ring_types_; }
+  const RingTypes& ring_types() const { return ring_types_; }
 
   /// The vertices around a face that is not regular, in its type's order. Those of large rings are gathered into
   /// `scratch`, so that memory does not grow with the square of a valence.
@@ -29,7 +29,7 @@ class FaceTypes {
   Topology base_;
   Scheme scheme_;
   PatchFinder finder_;
-  RingSteps ring_types_;
+  RingTypes ring_types_;
   Buffer<Index> types_;
   Buffer<std::size_t> ring_starts_;  ///< F + 1
   Buffer<Index> rings_;              ///< empty for regular faces and large rings

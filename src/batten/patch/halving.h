@@ -7,7 +7,7 @@ namespace batten {
 /// A double has no smaller fractions of a face: after so many halvings here is the vertex itself.
 inline constexpr int kHalvingsToVertex = 53;
 
-/// One of four children, in RingSteps' order, and how much faster its parameters run: a triangle's middle child is
+/// One of four children, in RingTypes' order, and how much faster its parameters run: a triangle's middle child is
 /// turned, backwards.
 struct Halving {
   int child;

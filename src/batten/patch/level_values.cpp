@@ -12,19 +12,18 @@ LevelValues::LevelValues(const Pieces& pieces, ConstValuesRef base) : base_(base
   }
 }
 
-std::vector<Buffer<Double4>> level_points(const SurfacePatches& patches, ConstValuesRef control,
-                                          const Progress& progress) {
-  require_control_points(patches.topology(), control);
-  const Values base = patches.base_values(control, progress);
+Buffer<Double4> vectors_of(ConstValuesRef points) {
+  Buffer<Double4> vectors(static_cast<std::size_t>(points.rows()));
+  parallel_for(points.rows(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (std::ptrdiff_t i = begin; i < end; ++i) vectors[i] = Double4{points(i, 0), points(i, 1), points(i, 2), 0.0};
+  });
+  return vectors;
+}
+
+std::vector<Buffer<Double4>> level_points(const SurfacePatches& patches, ConstValuesRef base) {
   const LevelValues values(patches.pieces(), base);
   std::vector<Buffer<Double4>> points;
-  for (int level = 0; level <= patches.pieces().region_count(); ++level) {
-    ConstValuesRef from = values.at(level);
-    Buffer<Double4>& to = points.emplace_back(static_cast<std::size_t>(from.rows()));
-    parallel_for(from.rows(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-      for (std::ptrdiff_t i = begin; i < end; ++i) to[i] = Double4{from(i, 0), from(i, 1), from(i, 2), 0.0};
-    });
-  }
+  for (int level = 0; level <= patches.pieces().region_count(); ++level) points.push_back(vectors_of(values.at(level)));
   return points;
 }
 

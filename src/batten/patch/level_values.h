@@ -20,9 +20,10 @@ class LevelValues {
   std::vector<Values> storage_;
 };
 
-/// Control points for the pieces of all levels, the fourth number zero. control: V-by-3, of control vertices.
-/// Throws Error(BadShape), Error(NotFinite), Error(Cancelled).
-std::vector<Buffer<Double4>> level_points(const SurfacePatches& patches, ConstValuesRef control,
-                                          const Progress& progress = {});
+/// Rows of three numbers with a fourth, which is zero. Threaded.
+Buffer<Double4> vectors_of(ConstValuesRef points);
+
+/// Control points for the pieces of all levels. base: those of the base.
+std::vector<Buffer<Double4>> level_points(const SurfacePatches& patches, ConstValuesRef base);
 
 }  // namespace batten

@@ -9,7 +9,7 @@
 #include "batten/error.h"
 #include "batten/patch/face_types.h"
 #include "batten/patch/pieces.h"
-#include "batten/patch/ring_steps.h"
+#include "batten/patch/ring_types.h"
 #include "batten/refine/child_topology.h"
 #include "batten/refine/refined_rows.h"
 #include "batten/refine/refinement.h"
@@ -20,7 +20,7 @@ struct SurfacePatches::Parts {
   /// Pieces and the types of those that are rings.
   struct Cut {
     Pieces pieces;
-    RingSteps types;
+    RingTypes types;
     Buffer<Index> type_of_shared;  ///< of each shared ring of the pieces
 
     Cut(const Topology& base, const Scheme& base_scheme, const Scheme& scheme)
@@ -100,9 +100,10 @@ std::vector<std::pair<Index, double>> SurfacePatches::by_control(std::vector<std
 }
 
 const Pieces& SurfacePatches::pieces() const { return parts_->cut_into_pieces().pieces; }
-const RingSteps& SurfacePatches::ring_types() const { return parts_->cut_into_pieces().types; }
-Index SurfacePatches::ring_type(const Piece& piece) const {
-  return parts_->cut_into_pieces().type_of_shared[piece.shared_ring];
+const RingTypes& SurfacePatches::ring_types() const { return parts_->cut_into_pieces().types; }
+Index SurfacePatches::ring_type(const Piece& piece) const { return ring_type(piece.shared_ring); }
+Index SurfacePatches::ring_type(std::int32_t shared_ring) const {
+  return parts_->cut_into_pieces().type_of_shared[shared_ring];
 }
 
 const FaceTypes& SurfacePatches::face_types() const {

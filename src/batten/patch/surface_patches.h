@@ -4,7 +4,7 @@
 /// The base is the control mesh, or, for Catmull-Clark with faces that are no quads (or with alpha), its first
 /// refinement, whose quad h belongs to corner h of the control mesh (refine/refinement.h). A base face is one piece
 /// where it is regular; others are cut into pieces around what makes them irregular (patch/pieces.h). A piece is a
-/// patch, which is a polynomial, or a ring, whose ring type says how its children follow (patch/ring_steps.h).
+/// patch, which is a polynomial, or a ring, whose ring type says how its children follow (patch/ring_types.h).
 #pragma once
 #include <memory>
 #include <utility>
@@ -18,7 +18,7 @@ namespace batten {
 
 class FaceTypes;
 class Pieces;
-class RingSteps;
+class RingTypes;
 struct Piece;
 
 /// Immutable and safe to share between threads. A handle as Topology is: copies share what they stand for, so that
@@ -52,9 +52,10 @@ class SurfacePatches {
 
   /// The base in pieces (patch/pieces.h), kRingPieceLevels deep. Throws Error(BadArgument) for the Butterflies.
   const Pieces& pieces() const;
-  /// The types of the pieces that are rings (patch/ring_steps.h).
-  const RingSteps& ring_types() const;
+  /// The types of the pieces that are rings (patch/ring_types.h).
+  const RingTypes& ring_types() const;
   Index ring_type(const Piece& piece) const;
+  Index ring_type(std::int32_t shared_ring) const;
 
   /// The same for whole base faces (patch/face_types.h), which have more types. Throws Error(BadArgument) for the
   /// Butterflies.

@@ -83,7 +83,7 @@ struct LimitSurface::Parts {
   SurfacePatches patches;
   bool quads;
   const Pieces& pieces;
-  const RingSteps& types;
+  const RingTypes& types;
   RingBlocks blocks;
   RingDescents descents;
   int kept_halvings = 0;
@@ -151,7 +151,9 @@ void LimitSurface::Parts::lay_out_trees() {
 
 void LimitSurface::Parts::set_control(ConstValuesRef control, const Progress& progress) {
   constexpr double kPoints = 0.5;  // of the time
-  std::vector<Buffer<Double4>> level = level_points(patches, control, progress_within(progress, 0.0, kPoints));
+  require_control_points(patches.topology(), control);
+  const Values base_control = patches.base_values(control, progress_within(progress, 0.0, kPoints));
+  std::vector<Buffer<Double4>> level = level_points(patches, base_control);
   Buffer<Double4> filled(trees.size());
   if (kept_halvings > 0) {
     parallel_for(
@@ -250,7 +252,7 @@ void LimitSurface::Parts::set_on_ring(const Piece& piece, double u, double v, do
       node = child.node;
     }
   }
-  while (at.type != RingSteps::kPatch && halvings < kHalvingsToVertex) {
+  while (at.type != RingTypes::kPatch && halvings < kHalvingsToVertex) {
     const Approach near = approach(quads, u, v);
     const int to_corner = std::min(near.halvings, descents.most_to_corner(at.type, near.corner));
     scale *= approach_corner(quads, near.corner, to_corner, u, v);
@@ -259,7 +261,7 @@ void LimitSurface::Parts::set_on_ring(const Piece& piece, double u, double v, do
     halvings += to_corner + 1;
     descents.descend(near.corner, to_corner, step.child, scratch, at);
   }
-  if (at.type != RingSteps::kPatch) return set_at_vertex(piece, first_u, first_v, jet);
+  if (at.type != RingTypes::kPatch) return set_at_vertex(piece, first_u, first_v, jet);
   PatchJet sums;
   patch_jet(quads, u, v, at.points, at.rows, sums);
   set_jet(sums, at.origin, scale, jet);

@@ -39,7 +39,7 @@ struct Cell {
   double v0 = 0.0;
   double size = 1.0;
 
-  /// In RingSteps' order.
+  /// In RingTypes' order.
   Cell child(bool quads, int number) const {
     const double half = 0.5 * size;
     if (!quads && number == 3) return {u0 + half, v0 + half, -half};
@@ -59,7 +59,7 @@ class Filler {
 
   /// Halves towards what is irregular.
   void add(Index face, Index type, const Cell& cell, int level) {
-    if (type == RingSteps::kPatch || level == levels_) return add_points(face, cell);
+    if (type == RingTypes::kPatch || level == levels_) return add_points(face, cell);
     for (int c = 0; c < 4; ++c) add(face, types_.child(type, c).type, cell.child(quads_, c), level + 1);
   }
 
@@ -78,7 +78,7 @@ class Filler {
     }
   }
 
-  const RingSteps& types_;
+  const RingTypes& types_;
   bool quads_;
   int levels_;
   Rule rule_;

@@ -2,18 +2,18 @@
 
 namespace batten {
 
-RingBlocks::RingBlocks(const RingSteps& types, int most_depth) : types_(types) {
+RingBlocks::RingBlocks(const RingTypes& types, int most_depth) : types_(types) {
   nodes_.resize(static_cast<std::size_t>(types.type_count()) * static_cast<std::size_t>(most_depth));
   for (int depth = 1; depth <= most_depth; ++depth) {
     for (Index type = 0; type < types.type_count(); ++type) {
-      const RingSteps::Step& step = types.step(type);
+      const RingTypes::Step& step = types.step(type);
       Node& node = nodes_[node_of(type, depth)];
       node.size = 1 + static_cast<std::size_t>(step.rows.count());
       for (std::size_t c = 0; c < 4; ++c) {
         const Index child = types.child(type, static_cast<int>(c)).type;
         Node::Child& result = node.children[c];
         result = {kPatch, child, 0, step.children[c].data()};
-        if (child == RingSteps::kPatch) continue;
+        if (child == RingTypes::kPatch) continue;
         result.node = depth == 1 ? kTreeEnds : node_of(child, depth - 1);
         if (depth == 1) continue;
         result.offset = static_cast<std::uint32_t>(node.size);
@@ -25,7 +25,7 @@ RingBlocks::RingBlocks(const RingSteps& types, int most_depth) : types_(types) {
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     for (std::size_t c = 0; c < 4; ++c) {
       Jump jump{nodes_[n].children[c], 0, nodes_[n].children[c].offset};
-      while (jump.child.type != RingSteps::kPatch) {
+      while (jump.child.type != RingTypes::kPatch) {
         jumps_[4 * n + c].push_back(jump);
         if (jump.child.node < 0) break;
         jump.block = jump.tree;

@@ -3,26 +3,26 @@
 #include <span>
 #include <vector>
 
-#include "batten/patch/ring_steps.h"
+#include "batten/patch/ring_types.h"
 #include "batten/patch/spline_jet.h"
 
 namespace batten {
 
 /// Control points are kept with an origin near them, so that small rings keep their digits: a block is the origin, then
-/// the points of a step (patch/ring_steps.h) as seen from there.
+/// the points of a step (patch/ring_types.h) as seen from there.
 ///
 /// The tree of a ring `depth` halvings deep is the block of its children, then the trees of those of its children that
 /// are rings, one halving less deep.
 class RingBlocks {
  public:
   /// The types must outlive it.
-  RingBlocks(const RingSteps& types, int most_depth);
+  RingBlocks(const RingTypes& types, int most_depth);
 
   /// A ring from which a tree of some depth starts.
   struct Node {
     struct Child {
       std::int32_t node;     ///< of a ring, or kPatch; kTreeEnds where the child's own tree is not kept
-      std::int32_t type;     ///< of ring, or RingSteps::kPatch
+      std::int32_t type;     ///< of ring, or RingTypes::kPatch
       std::uint32_t offset;  ///< of its tree in this one
       const Index* points;   ///< of its ring or patch, in this tree's block
     };
@@ -53,7 +53,7 @@ class RingBlocks {
   /// The ring as seen from its first point.
   void centre(Index type, const Double4* points, const Index* rows, Buffer<Double4>& ring) const;
 
-  const RingSteps& types_;
+  const RingTypes& types_;
   Buffer<Node> nodes_;
   std::vector<std::vector<Jump>> jumps_;  ///< of each node, four
 };

@@ -61,10 +61,10 @@ void RowsByFour::apply(const Double4* from, Buffer<Double4>& to) const {
   }
 }
 
-RingDescents::RingDescents(const RingSteps& types)
+RingDescents::RingDescents(const RingTypes& types)
     : types_(types), children_(types.type_count()), deeper_(children_.size()) {
   for (Index type = 0; type < types.type_count(); ++type) {
-    const RingSteps::Step& step = types.step(type);
+    const RingTypes::Step& step = types.step(type);
     const auto fill = [&](const SparseRows& points, Children& children) {
       std::size_t most = 0;
       for (int c = 0; c < 4; ++c) {

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "batten/patch/ring_steps.h"
+#include "batten/patch/ring_types.h"
 #include "batten/patch/spline_jet.h"
 
 namespace batten {
@@ -37,11 +37,11 @@ struct DescentScratch {
   FaceRing gathered;    ///< a large ring
 };
 
-/// The matrices of RingSteps and, where a corner's child is a ring of the same type, of several halvings at once.
+/// The matrices of RingTypes and, where a corner's child is a ring of the same type, of several halvings at once.
 class RingDescents {
  public:
   /// The types must outlive it. O(size of their matrices).
-  explicit RingDescents(const RingSteps& types);
+  explicit RingDescents(const RingTypes& types);
 
   /// So many halvings towards a corner can be had with the one that follows.
   int most_to_corner(Index type, int corner) const { return static_cast<int>(deeper_[type][corner].size()); }
@@ -50,7 +50,7 @@ class RingDescents {
 
  private:
   using Children = std::array<RowsByFour, 4>;
-  const RingSteps& types_;
+  const RingTypes& types_;
   std::vector<Children> children_;                            ///< of each type
   std::vector<std::array<std::vector<Children>, 4>> deeper_;  ///< of each type and corner: after one halving, two, ...
 };

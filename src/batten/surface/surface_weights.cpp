@@ -45,7 +45,7 @@ double chain_factor(JetPart part, double scale) {
 }
 
 /// Weights of the points of a ring's child as weights of the ring's points.
-std::vector<double> to_ring(const RingSteps::Step& step, const Buffer<Index>& child,
+std::vector<double> to_ring(const RingTypes::Step& step, const Buffer<Index>& child,
                             const std::vector<double>& weights) {
   std::vector<double> of_ring(static_cast<std::size_t>(step.ring_size), 0.0);
   for (std::size_t p = 0; p < child.size(); ++p) {
@@ -111,20 +111,20 @@ PlaceRows SurfaceWeights::Parts::make_rows(const SurfacePlace& place, std::span<
                                            FaceRing& scratch) const {
   PlaceRows rows;
   JetWeights jet;
-  const RingSteps& types = faces.ring_types();
+  const RingTypes& types = faces.ring_types();
   double u = place.u;
   double v = place.v;
   double scale = 1.0;
   std::vector<std::pair<Index, int>> path;
   Index type = faces.type(place.face);
-  const bool regular = type == RingSteps::kPatch;
-  while (type != RingSteps::kPatch && path.size() < kHalvingsToVertex) {
+  const bool regular = type == RingTypes::kPatch;
+  while (type != RingTypes::kPatch && path.size() < kHalvingsToVertex) {
     const Halving step = halve(quads(), u, v);
     scale *= step.factor;
     path.emplace_back(type, step.child);
     type = types.child(type, step.child).type;
   }
-  if (type != RingSteps::kPatch) {
+  if (type != RingTypes::kPatch) {
     for (const JetPart part : parts) rows.push_back(vertex_row(place, part));
     return rows;
   }
@@ -141,7 +141,7 @@ PlaceRows SurfaceWeights::Parts::make_rows(const SurfacePlace& place, std::span<
     for (double& weight : weights) weight *= chain_factor(part, scale);
     if (part != JetPart::Point) keep_sum_zero(weights);
     for (std::size_t i = path.size(); i-- > 0;) {
-      const RingSteps::Step& step = types.step(path[i].first);
+      const RingTypes::Step& step = types.step(path[i].first);
       weights = to_ring(step, step.children[path[i].second], weights);
       if (part != JetPart::Point) keep_sum_zero(weights);
     }

@@ -1,4 +1,4 @@
-#include "batten/patch/ring_steps.h"
+#include "batten/patch/ring_types.h"
 
 #include <algorithm>
 
@@ -98,9 +98,9 @@ class RowCollector {
 
 }  // namespace
 
-RingSteps::RingSteps(const Scheme& scheme) : scheme_(scheme.after_first_step()) {}
+RingTypes::RingTypes(const Scheme& scheme) : scheme_(scheme.after_first_step()) {}
 
-Index RingSteps::type_of(const Topology& topology, const FaceRing& ring) {
+Index RingTypes::type_of(const Topology& topology, const FaceRing& ring) {
   const auto place = numbers_.find(ring.key());
   if (place != numbers_.end()) return place->second;
   const auto type = static_cast<Index>(types_.size());

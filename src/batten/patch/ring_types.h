@@ -14,9 +14,9 @@ namespace batten {
 /// Types of one-rings and their children. A ring of a face has four children; each is a regular patch or a ring again,
 /// for smooth extraordinary vertices, creases and corners the same one from some level on, so that the types are few.
 /// Frames stay parallel: u of a child runs as u of the face; a triangle's middle child is turned by half.
-class RingSteps {
+class RingTypes {
  public:
-  explicit RingSteps(const Scheme& scheme);
+  explicit RingTypes(const Scheme& scheme);
 
   struct Child {
     Index type;          ///< of ring, or kPatch
