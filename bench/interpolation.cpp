@@ -66,8 +66,8 @@ std::string against_rivals(const Subject& subject, bool with_cholesky) {
   const auto solve = [&](const Interpolator& interpolator, int place) {
     return [&, place] {
       result = interpolator.solve(subject.targets);
-      iterations[place] = result.report.iterations;
-      if (!result.report.converged) throw std::runtime_error(result.report.method_name + " did not converge");
+      iterations[place] = result.report.solve.iterations;
+      if (!result.report.converged()) throw std::runtime_error(result.report.solve.method_name + " did not converge");
     };
   };
   const std::vector<double> seconds =
@@ -128,7 +128,7 @@ std::string growth_section() {
     const Interpolator interpolator(torus.topology, torus.scheme);
     int iterations = 0;
     const std::vector<double> seconds =
-        in_turn({[&] { iterations = interpolator.solve(torus.targets).report.iterations; },
+        in_turn({[&] { iterations = interpolator.solve(torus.targets).report.solve.iterations; },
                  [&] { const Interpolator built(torus.topology, torus.scheme); }},
                 5);
     const double count = torus.topology.vertex_count();

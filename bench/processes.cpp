@@ -39,10 +39,10 @@ int run_large(Index vertices) {
   const Subject large = subject(vertices);
   const Interpolant result = Interpolator(large.topology, large.scheme).solve(large.targets);
   std::fprintf(stderr, "%d vertices, %d iterations, max error %.3g of the diagonal\n", large.topology.vertex_count(),
-               result.report.iterations, result.max_error / bounding_diagonal(large.targets));
+               result.report.solve.iterations, result.report.max_error / bounding_diagonal(large.targets));
   std::printf("vertices: %d\npeak: %.0f\n", large.topology.vertex_count(),
               1024.0 * number_after("/proc/self/status", "VmHWM:"));
-  return result.report.converged ? 0 : 1;
+  return result.report.converged() ? 0 : 1;
 }
 
 std::string process_section() {

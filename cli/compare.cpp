@@ -46,8 +46,8 @@ MethodResult run(const ComparedMethod& contestant, const Topology& topology, con
       const double seconds = seconds_since(start);
       spent += seconds;
       result.solve_seconds = runs == 0 ? seconds : std::min(result.solve_seconds, seconds);
-      result.max_error = interpolant.max_error;
-      result.report = std::move(interpolant.report);
+      result.max_error = interpolant.report.max_error;
+      result.report = std::move(interpolant.report.solve);
     }
   } catch (const Error& error) {
     if (error.code() == ErrorCode::Cancelled) throw;

@@ -35,36 +35,39 @@ struct Compared {
   Fairness fairness;
 };
 
-/// The control mesh of the surface through the points, refined once where the interpolant has to be.
-RefinedSurface through_points(const Topology& topology, const Mesh& mesh, Compared& compared, bool quiet) {
+/// The surface through the points.
+Interpolant through_points(const Topology& topology, const Mesh& mesh, Compared& compared, bool quiet) {
   const Interpolator interpolator(topology, compared.scheme, {}, ProgressBar("building", quiet).callback());
   ProgressBar bar("interpolating", quiet);
-  const Interpolant interpolant = interpolator.solve(mesh.points, bar.callback());
-  compared.method = interpolant.report.method_name;
-  compared.iterations = interpolant.report.iterations;
-  compared.max_error = interpolant.max_error;
-  if (!interpolant.report.converged) {
+  Interpolant interpolant = interpolator.solve(mesh.points, bar.callback());
+  compared.method = interpolant.report.solve.method_name;
+  compared.iterations = interpolant.report.solve.iterations;
+  compared.max_error = interpolant.report.max_error;
+  if (!interpolant.report.converged()) {
     throw Error(ErrorCode::NotConverged,
-                fmt::format("not solved: it still misses vertices by {:.2g} after {}", interpolant.max_error,
-                            count_of(interpolant.report.iterations, "iteration", "iterations")));
+                fmt::format("not solved: it still misses vertices by {:.2g} after {}", compared.max_error,
+                            count_of(compared.iterations, "iteration", "iterations")));
   }
-  return ordinary_surface(topology, compared.scheme, interpolant, bar.callback());
+  return interpolant;
 }
 
 void build(const Topology& topology, const Mesh& mesh, int levels, Compared& compared, bool quiet) {
   RefinedSurface surface{with_surface_holes(topology, compared.scheme), mesh.points};
+  Scheme scheme = compared.scheme;
   int steps = levels;
-  if (!is_interpolating(compared.scheme.kind)) {
+  if (!is_interpolating(scheme.kind)) {
     surface.values = Values();
-    RefinedSurface control = through_points(topology, mesh, compared, quiet);
-    const bool same = control.topology.vertex_count() == topology.vertex_count();
-    if (!same) surface.topology = std::move(control.topology);
-    surface.values = std::move(control.values);
-    steps = same ? levels : std::max(0, levels - 1);
+    Interpolant control = through_points(topology, mesh, compared, quiet);
+    if (control.topology.vertex_count() > topology.vertex_count()) {
+      surface.topology = control.topology;
+      steps = std::max(0, levels - 1);
+    }
+    surface.values = std::move(control.control);
+    scheme = control.scheme;
   }
   ProgressBar bar("refining", quiet);
-  const Scheme scheme = compared.scheme.after_first_step();
   surface = refine(surface.topology, scheme, surface.values, steps, bar.callback());
+  if (steps > 0) scheme = scheme.after_first_step();
   const Values points = LimitMatrix(surface.topology, scheme, {}, bar.callback()).apply(surface.values, bar.callback());
   const DiscreteCurvature curvature = discrete_curvature(surface.topology, points, bar.callback());
   compared.fairness = fairness(surface.topology, points, curvature, bar.callback());

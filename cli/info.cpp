@@ -110,20 +110,21 @@ void describe_interpolation(const Mesh& mesh, const Topology& topology, const Sc
   const Values targets = interpolator.limit_matrix().apply(mesh.points);
   const Interpolant found = interpolator.solve(targets, ProgressBar("self-check", quiet).callback());
   const double diagonal = bounding_diagonal(targets);
-  const double error = diagonal > 0.0 ? found.max_error / diagonal : found.max_error;
-  table.add("interpolation", found.singular_components == 0
-                                 ? std::string("no component is singular")
-                                 : count_of(found.singular_components, "component is", "components are") +
-                                       " singular: a surface passes through some sets of points only");
-  table.add("self-check",
-            fmt::format("a known surface was found again by {} in {}, to {:.2g} of the diagonal{}",
-                        found.report.method_name, count_of(found.report.iterations, "iteration", "iterations"), error,
-                        found.report.converged ? "" : ": NOT as exact as asked"));
-  json["interpolation"] = {{"singular_components", found.singular_components},
-                           {"method", found.report.method_name},
-                           {"iterations", found.report.iterations},
-                           {"converged", found.report.converged},
-                           {"max_error", found.max_error},
+  const double error = diagonal > 0.0 ? found.report.max_error / diagonal : found.report.max_error;
+  table.add("interpolation",
+            found.report.singular.size() == 0
+                ? std::string("no component is singular")
+                : count_of(static_cast<std::int64_t>(found.report.singular.size()), "component is", "components are") +
+                      " singular: a surface passes through some sets of points only");
+  table.add("self-check", fmt::format("a known surface was found again by {} in {}, to {:.2g} of the diagonal{}",
+                                      found.report.solve.method_name,
+                                      count_of(found.report.solve.iterations, "iteration", "iterations"), error,
+                                      found.report.converged() ? "" : ": NOT as exact as asked"));
+  json["interpolation"] = {{"singular_components", found.report.singular.size()},
+                           {"method", found.report.solve.method_name},
+                           {"iterations", found.report.solve.iterations},
+                           {"converged", found.report.converged()},
+                           {"max_error", found.report.max_error},
                            {"relative_error", error}};
 }
 

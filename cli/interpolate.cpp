@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "batten/error.h"
+#include "batten/interpolate/interpolated_mesh.h"
 #include "batten/io/io.h"
-#include "batten/parallel/parallel.h"
 #include "batten/tessellate/surface_mesh.h"
 #include "cli/job.h"
 #include "cli/picture.h"
@@ -12,98 +14,193 @@
 namespace batten::cli {
 namespace {
 
-/// The control mesh that goes to the file: the input with new points, or the refined mesh where alpha acted.
-Mesh control_mesh(Mesh mesh, const Topology& topology, const Scheme& scheme, const Interpolant& interpolant,
-                  bool quiet) {
-  ProgressBar bar("refining", quiet);
-  RefinedSurface surface = ordinary_surface(topology, scheme, interpolant, bar.callback());
-  const bool same = surface.topology.vertex_count() == topology.vertex_count();
-  Mesh control = same ? std::move(mesh) : mesh_from_topology(surface.topology);
-  control.points = surface.values;
-  state_scheme(scheme, control);
-  return control;
-}
-
-/// Colours and other numbers at the vertices are interpolated too; normals of the input are not those of control
-/// points.
-void interpolate_attributes(Mesh& mesh, const Interpolator& interpolator, bool quiet) {
-  std::erase_if(mesh.attributes, [](const Attribute& attribute) { return attribute.name == "normal"; });
-  for (Attribute& attribute : mesh.attributes) {
-    if (attribute.per_corner()) continue;
-    ProgressBar bar("interpolating " + attribute.name, quiet);
-    attribute.values = interpolator.solve(attribute.values, bar.callback()).control;
-  }
-}
-
 /// The control mesh, or where a refined surface was asked for, or the format holds nothing else, that surface.
 /// Returns what was written when it is not the control mesh.
-std::string write_result(const InterpolateArguments& arguments, const Mesh& control, const Scheme& scheme) {
+std::string write_result(const InterpolateArguments& arguments, const InterpolatedMesh& result) {
   const CommonArguments& common = arguments.common;
   if (common.output.empty()) return {};
   const bool surface = arguments.levels >= 0 || file_format(common.output, common.output_format) == "glb";
   if (!surface) {
-    write_output(common, control);
+    write_output(common, result.mesh);
     return {};
   }
-  const Topology topology(control, ProgressBar("connecting", common.quiet).callback());
-  const int levels = arguments.levels >= 0 ? arguments.levels : std::min(3, picture_levels(topology));
+  const int levels = arguments.levels >= 0 ? arguments.levels : std::min(3, picture_levels(result.topology));
   ProgressBar bar("refining", common.quiet);
-  const Mesh refined = surface_mesh(topology, scheme, control, levels, bar.callback());
+  const Mesh refined = surface_mesh(result.topology, result.scheme, result.mesh, levels, bar.callback());
   write_output(common, refined);
   return fmt::format("the limit surface refined to {}, {}", count_of(levels, "level", "levels"), size_text(refined));
 }
 
-void add_error_rows(Table& table, const Interpolant& result, double diagonal) {
-  const Index worst = result.worst.empty() ? -1 : result.worst.front().row;
-  table.add("max error", fmt::format("{:.3g} at vertex {} ({:.3g} of the diagonal)", result.max_error, worst,
-                                     diagonal > 0.0 ? result.max_error / diagonal : 0.0));
-  table.add("rms error", fmt::format("{:.3g}", result.rms_error));
-  table.add("moved", fmt::format("at most {:.4g} ({:.3g} of the diagonal)", result.max_movement,
-                                 diagonal > 0.0 ? result.max_movement / diagonal : 0.0));
+std::string share_text(double length, double diagonal) {
+  return fmt::format("{:.3g} of the diagonal", diagonal > 0.0 ? length / diagonal : 0.0);
 }
 
-std::string singular_text(const Interpolant& result, OnSingular choice) {
-  const std::string name = count_of(result.singular_components, "component has", "components have");
-  if (!result.vertex_alpha.empty()) {
-    return name +
-           " no surface through arbitrary points (all valences 3, two-colourable): alpha = 1/2 there, and the result "
-           "is "
-           "written refined once";
+Index worst_vertex(const InterpolationReport& report) { return report.worst.empty() ? -1 : report.worst.front().row; }
+
+/// What there is to say of an outcome beside the errors; empty where each point was reached.
+const char* outcome_text(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::Reached:
+      return "";
+    case Outcome::Rounding:
+      return "as near as doubles come at these coordinates";
+    case Outcome::LeastSquares:
+      return "the nearest miss on singular components, the tolerance elsewhere";
+    case Outcome::NotReached:
+      break;
   }
-  if (choice == OnSingular::LeastSquares) return name + " a singular system; solved in the least-squares sense";
-  return name + " a singular system, but these points have a surface";
+  return "the tolerance was NOT reached";
+}
+
+const char* outcome_word(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::Reached:
+      return "tolerance";
+    case Outcome::Rounding:
+      return "rounding";
+    case Outcome::LeastSquares:
+      return "least squares";
+    case Outcome::NotReached:
+      break;
+  }
+  return "not reached";
+}
+
+std::string error_text(const InterpolationReport& report) {
+  return fmt::format("{:.3g} at vertex {} ({})", report.max_error, worst_vertex(report),
+                     share_text(report.max_error, report.diagonal));
+}
+
+void add_error_rows(Table& table, const std::vector<InterpolationReport>& reports) {
+  const InterpolationReport& points = reports.front();
+  table.add("max error", error_text(points));
+  table.add("rms error", fmt::format("{:.3g}", points.rms_error));
+  if (points.outcome != Outcome::Reached) table.add("reached", outcome_text(points.outcome));
+  table.add("moved",
+            fmt::format("at most {:.4g} ({})", points.max_movement, share_text(points.max_movement, points.diagonal)));
+  for (std::size_t i = 1; i < reports.size(); ++i) {
+    const char* outcome = outcome_text(reports[i].outcome);
+    table.add(reports[i].name,
+              fmt::format("max error {}{}{}", error_text(reports[i]), *outcome != '\0' ? ": " : "", outcome));
+  }
+}
+
+const char* reason_text(SingularReason reason) {
+  switch (reason) {
+    case SingularReason::TwoColourable:
+      return "all valences 3, two-colourable";
+    case SingularReason::ValenceTwo:
+      return "vertices of valence 2";
+    case SingularReason::Unsolvable:
+      break;
+  }
+  return "no method solves it";
+}
+
+std::string treatment_text(const SingularReport& component) {
+  switch (component.treatment) {
+    case SingularTreatment::None:
+      return "but these points have a surface";
+    case SingularTreatment::LeastSquares:
+      return "solved in the least-squares sense";
+    case SingularTreatment::Alpha:
+      break;
+  }
+  return fmt::format("alpha = {} there, and the result is written refined once",
+                     component.alpha == 0.5 ? std::string("1/2") : fmt::format("{:g}", component.alpha));
+}
+
+bool alike(const SingularReport& a, const SingularReport& b) {
+  return a.reason == b.reason && a.treatment == b.treatment && a.alpha == b.alpha;
+}
+
+/// One row for the components that are singular for the same reason and treated alike.
+void add_singular_rows(Table& table, const InterpolationReport& report) {
+  std::vector<SingularReport> left = report.singular;
+  std::string name = report.name == "points" ? "singular" : "singular for " + report.name;
+  while (!left.empty()) {
+    const SingularReport first = left.front();
+    const auto count = std::count_if(left.begin(), left.end(), [&](const auto& one) { return alike(one, first); });
+    table.add(name, fmt::format(
+                        "{} no surface through arbitrary points ({}; {}{}): {}",
+                        count_of(count, "component has", "components have"), reason_text(first.reason),
+                        count > 1 ? "the first at " : "",
+                        fmt::format("vertex {}, {}", first.vertex, count_of(first.vertex_count, "vertex", "vertices")),
+                        treatment_text(first)));
+    std::erase_if(left, [&](const auto& one) { return alike(one, first); });
+    name.clear();
+  }
+}
+
+void add_all_singular_rows(Table& table, const std::vector<InterpolationReport>& reports) {
+  for (const InterpolationReport& report : reports) {
+    const bool told = &report != &reports.front() && std::equal(report.singular.begin(), report.singular.end(),
+                                                                reports.front().singular.begin(), alike);
+    if (!told) add_singular_rows(table, report);
+  }
+}
+
+nlohmann::ordered_json singular_json(const InterpolationReport& report) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const SingularReport& one : report.singular) {
+    constexpr const char* kReasons[] = {"two-colourable", "valence 2", "unsolvable"};
+    constexpr const char* kTreatments[] = {"none needed", "least squares", "alpha"};
+    json.push_back({{"vertex", one.vertex},
+                    {"vertices", one.vertex_count},
+                    {"reason", kReasons[static_cast<int>(one.reason)]},
+                    {"treatment", kTreatments[static_cast<int>(one.treatment)]},
+                    {"alpha", one.alpha}});
+  }
+  return json;
+}
+
+nlohmann::ordered_json values_json(const InterpolationReport& report) {
+  nlohmann::ordered_json worst = nlohmann::ordered_json::array();
+  for (const RowError& entry : report.worst) worst.push_back({{"vertex", entry.row}, {"error", entry.error}});
+  return {{"method", report.solve.method_name},
+          {"converged", report.converged()},
+          {"outcome", outcome_word(report.outcome)},
+          {"iterations", report.solve.iterations},
+          {"residual_history", report.solve.residual_history},
+          {"measured_after", report.solve.measured_after},
+          {"max_error", report.max_error},
+          {"rms_error", report.rms_error},
+          {"worst_vertices", worst},
+          {"max_movement", report.max_movement},
+          {"singular", singular_json(report)}};
 }
 
 nlohmann::ordered_json report_json(const InterpolateArguments& arguments, const Topology& topology,
-                                   const Scheme& scheme, const Interpolant& result, double diagonal) {
-  nlohmann::ordered_json worst = nlohmann::ordered_json::array();
-  for (const RowError& entry : result.worst) worst.push_back({{"vertex", entry.row}, {"error", entry.error}});
-  return {{"vertices", topology.vertex_count()},
-          {"faces", topology.face_count()},
-          {"edges", topology.edge_count()},
-          {"isolated_vertices", isolated_count(topology)},
-          {"diagonal", diagonal},
-          {"scheme", scheme_json(scheme)},
-          {"method", result.report.method_name},
-          {"tolerance", arguments.options.tolerance},
-          {"converged", result.report.converged},
-          {"iterations", result.report.iterations},
-          {"residual_history", result.report.residual_history},
-          {"measured_after", result.report.measured_after},
-          {"max_error", result.max_error},
-          {"rms_error", result.rms_error},
-          {"worst_vertices", worst},
-          {"max_movement", result.max_movement},
-          {"singular_components", result.singular_components},
-          {"alpha_used", !result.vertex_alpha.empty()},
-          {"peak_memory_bytes", peak_memory_bytes()}};
+                                   const Scheme& scheme, const InterpolatedMesh& result) {
+  const InterpolationReport& points = result.reports.front();
+  nlohmann::ordered_json json{{"vertices", topology.vertex_count()},
+                              {"faces", topology.face_count()},
+                              {"edges", topology.edge_count()},
+                              {"isolated_vertices", isolated_count(topology)},
+                              {"diagonal", points.diagonal},
+                              {"scheme", scheme_json(scheme)},
+                              {"tolerance", arguments.options.tolerance}};
+  json.update(values_json(points));
+  json["singular_components"] = points.singular.size();
+  json["alpha_used"] = std::any_of(points.singular.begin(), points.singular.end(),
+                                   [](const SingularReport& one) { return one.treatment == SingularTreatment::Alpha; });
+  json["refined_once"] = result.is_refined;
+  nlohmann::ordered_json attributes = nlohmann::ordered_json::array();
+  for (std::size_t i = 1; i < result.reports.size(); ++i) {
+    nlohmann::ordered_json attribute{{"name", result.reports[i].name}, {"diagonal", result.reports[i].diagonal}};
+    attribute.update(values_json(result.reports[i]));
+    attributes.push_back(std::move(attribute));
+  }
+  json["attributes"] = std::move(attributes);
+  json["peak_memory_bytes"] = peak_memory_bytes();
+  return json;
 }
 
 /// The surface with the points that it passes through and its control mesh; colours speak for themselves.
-Subject subject_of(const Mesh& given, const Mesh& control, const Scheme& scheme, const PictureArguments& picture) {
+Subject subject_of(const Mesh& given, const InterpolatedMesh& result, const PictureArguments& picture) {
   Subject subject;
-  subject.control = control;
-  subject.scheme = scheme.after_first_step();
+  subject.control = result.mesh;
+  subject.scheme = result.scheme;
   subject.targets = given.points;
   if (picture.coloring == Coloring::None) {
     subject.markers = given.points;
@@ -115,28 +212,65 @@ Subject subject_of(const Mesh& given, const Mesh& control, const Scheme& scheme,
   return subject;
 }
 
-void print_table(const InterpolateArguments& arguments, const Topology& topology, const Scheme& scheme,
-                 const Interpolant& result, double diagonal, const std::string& written, const Job& job) {
+void print_table(const Topology& topology, const Scheme& scheme, const std::vector<InterpolationReport>& reports,
+                 const std::string& written, const Job& job) {
+  const SolveReport& solve = reports.front().solve;
   Table table;
   table.add("mesh", mesh_text(topology));
   table.add("scheme", scheme_text(scheme));
-  table.add("method", fmt::format("{}, {}", result.report.method_name,
-                                  count_of(result.report.iterations, "iteration", "iterations")));
-  add_error_rows(table, result, diagonal);
-  if (result.singular_components > 0) table.add("singular", singular_text(result, arguments.options.on_singular));
+  table.add("method", fmt::format("{}, {}", solve.method_name, count_of(solve.iterations, "iteration", "iterations")));
+  add_error_rows(table, reports);
+  add_all_singular_rows(table, reports);
   if (!written.empty()) table.add("written", written);
   job.print(table);
 }
 
 /// What was reached is written already; the exit code still has to tell.
-void require_tolerance(const Interpolant& result, const InterpolateOptions& options) {
-  const bool least_squares = result.singular_components > 0 && options.on_singular == OnSingular::LeastSquares;
-  if (!result.report.converged && !least_squares) {
-    throw Error(ErrorCode::NotConverged,
-                fmt::format("the tolerance {:g} was not reached in {} iterations; what was reached is written{}",
-                            options.tolerance, result.report.iterations,
-                            options.method == SolveMethod::Auto ? "" : " (try --method auto)"));
+void require_tolerance(const std::vector<InterpolationReport>& reports, const InterpolateOptions& options) {
+  for (const InterpolationReport& report : reports) {
+    if (report.converged()) continue;
+    throw Error(
+        ErrorCode::NotConverged,
+        fmt::format("{}the tolerance {:g} was not reached in {} iterations; what was reached is written{}",
+                    report.name == "points" ? "" : report.name + ": ", options.tolerance, report.solve.iterations,
+                    options.method == SolveMethod::Auto ? "" : " (try --method auto)"));
   }
+}
+
+InterpolatedMesh solve(const InterpolateArguments& arguments, const Topology& topology, const Scheme& scheme,
+                       Job& job) {
+  const bool quiet = arguments.common.quiet;
+  const Interpolator interpolator(topology, scheme, arguments.options, ProgressBar("building", quiet).callback());
+  job.stages.finish("build");
+  try {
+    ProgressBar bar("interpolating", quiet);
+    InterpolatedMesh result = interpolate(interpolator, std::move(job.mesh), bar.callback());
+    job.stages.finish("solve");
+    return result;
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::SingularSystem) throw;
+    throw Error(error.code(), error.what() + std::string(" (--on-singular alpha|least-squares)"));
+  }
+}
+
+/// The papers' iterations and ours, and the plot of either.
+std::vector<MethodResult> compare_and_plot(const InterpolateArguments& arguments, const Topology& topology,
+                                           const Scheme& scheme, const Points& targets,
+                                           const InterpolationReport& report, Job& job) {
+  const double tolerance = arguments.options.tolerance * report.diagonal;
+  std::vector<MethodResult> methods;
+  if (arguments.compare_methods) {
+    methods = compare_methods(topology, scheme, arguments.options, targets, arguments.common.quiet);
+    job.stages.finish("compare");
+  }
+  if (arguments.plot.empty()) return methods;
+  if (arguments.compare_methods) {
+    plot_methods(arguments.plot, methods, tolerance);
+  } else {
+    plot_residuals(arguments.plot, report.solve.method_name, report.solve, tolerance);
+  }
+  job.stages.finish("plot");
+  return methods;
 }
 
 }  // namespace
@@ -144,52 +278,30 @@ void require_tolerance(const Interpolant& result, const InterpolateOptions& opti
 int run_interpolate(const InterpolateArguments& arguments) {
   const CommonArguments& common = arguments.common;
   Job job("interpolate", common);
-  Mesh& mesh = job.mesh;
-  if (mesh.face_count() == 0) {
+  if (job.mesh.face_count() == 0) {
     throw Error(ErrorCode::BadArgument,
                 common.input + ": there are no faces, only points; a surface needs a mesh over its points");
   }
   const Topology topology = job.connect();
-  const Scheme scheme = scheme_for(common, mesh);
-  const double diagonal = bounding_diagonal(mesh.points);
+  const Scheme scheme = scheme_for(common, job.mesh);
   const bool drawn = !arguments.picture.path.empty();
-  const Mesh given = drawn ? mesh : Mesh();
-  const Points targets = arguments.compare_methods ? mesh.points : Points(0, 3);
-  std::vector<MethodResult> methods;
-  Interpolant result;
-  {
-    const Interpolator interpolator(topology, scheme, arguments.options,
-                                    ProgressBar("building", common.quiet).callback());
-    job.stages.finish("build");
-    ProgressBar bar("interpolating", common.quiet);
-    result = interpolator.solve(mesh.points, bar.callback());
-    interpolate_attributes(mesh, interpolator, common.quiet);
-  }
-  job.stages.finish("solve");
-  const Mesh control = control_mesh(std::move(mesh), topology, scheme, result, common.quiet);
-  const std::string written = write_result(arguments, control, scheme.after_first_step());
+  const Mesh given = drawn ? job.mesh : Mesh();
+  const Points targets = arguments.compare_methods ? job.mesh.points : Points(0, 3);
+  const InterpolatedMesh result = solve(arguments, topology, scheme, job);
+  const std::string written = write_result(arguments, result);
   job.stages.finish("write");
   if (drawn) {
-    draw(subject_of(given, control, scheme, arguments.picture), arguments.picture, common.quiet);
+    draw(subject_of(given, result, arguments.picture), arguments.picture, common.quiet);
     job.stages.finish("picture");
   }
-  if (arguments.compare_methods) {
-    methods = compare_methods(topology, scheme, arguments.options, targets, common.quiet);
-    job.stages.finish("compare");
-  }
-  if (!arguments.plot.empty() && arguments.compare_methods) {
-    plot_methods(arguments.plot, methods, arguments.options.tolerance * diagonal);
-    job.stages.finish("plot");
-  } else if (!arguments.plot.empty()) {
-    plot_residuals(arguments.plot, result.report.method_name, result.report, arguments.options.tolerance * diagonal);
-    job.stages.finish("plot");
-  }
-  print_table(arguments, topology, scheme, result, diagonal, written, job);
-  if (arguments.compare_methods) print_methods(methods, diagonal, common);
-  nlohmann::ordered_json report = report_json(arguments, topology, scheme, result, diagonal);
+  const InterpolationReport& points = result.reports.front();
+  const std::vector<MethodResult> methods = compare_and_plot(arguments, topology, scheme, targets, points, job);
+  print_table(topology, scheme, result.reports, written, job);
+  if (arguments.compare_methods) print_methods(methods, points.diagonal, common);
+  nlohmann::ordered_json report = report_json(arguments, topology, scheme, result);
   if (arguments.compare_methods) report["compared_methods"] = methods_json(methods);
   job.report(report);
-  require_tolerance(result, arguments.options);
+  require_tolerance(result.reports, arguments.options);
   return 0;
 }
 

@@ -17,5 +17,5 @@ int main(int argc, char** argv) {
   for (const batten::MeshProblem& problem : batten::check(box)) {
     std::puts(problem.messages.front().c_str());
   }
-  batten::write_mesh(argv[1], batten::interpolate(box));
+  batten::write_mesh(argv[1], batten::interpolate(box).mesh);
 }

@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
       targets(v, 0) = std::cos(angle) * mesh.points(v, 0) - std::sin(angle) * mesh.points(v, 1);
       targets(v, 1) = std::sin(angle) * mesh.points(v, 0) + std::cos(angle) * mesh.points(v, 1);
     }
-    max_error = std::max(max_error, interpolator.solve(targets).max_error);
+    max_error = std::max(max_error, interpolator.solve(targets).report.max_error);
   }
   std::printf("24 frames, max error %.1e\n", max_error);
 }

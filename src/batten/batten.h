@@ -15,6 +15,7 @@
 #include "batten/expand/strength.h"
 #include "batten/expand/surface_noise.h"
 #include "batten/expand/texture.h"
+#include "batten/interpolate/interpolated_mesh.h"
 #include "batten/interpolate/interpolator.h"
 #include "batten/io/animation.h"
 #include "batten/io/io.h"

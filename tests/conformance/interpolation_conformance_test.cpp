@@ -51,8 +51,8 @@ TEST_P(InterpolatesFor, OpenSubdivToo) {
   const double diagonal = bounding_diagonal(targets);
   const Topology topology(mesh);
   const Interpolant result = Interpolator(topology, scheme).solve(targets);
-  ASSERT_TRUE(result.report.converged) << result.report.method_name;
-  EXPECT_LE(result.max_error, 1e-10 * diagonal);
+  ASSERT_TRUE(result.report.converged()) << result.report.solve.method_name;
+  EXPECT_LE(result.report.max_error, 1e-10 * diagonal);
   mesh.points = result.control;
   const std::string path =
       (std::filesystem::temp_directory_path() / ("batten-" + std::to_string(getpid()) + GetParam().model + ".obj"))

@@ -50,8 +50,8 @@ TEST_P(Mended, AsExpectedAndThenInterpolates) {
   const Topology topology(result.mesh);
   const Scheme scheme = scheme_of_shape(GetParam().path.substr(GetParam().path.find('/') + 1), result.mesh);
   const Interpolant interpolant = Interpolator(topology, scheme).solve(result.mesh.points);
-  EXPECT_TRUE(interpolant.report.converged);
-  EXPECT_LE(interpolant.max_error, 1e-10 * bounding_diagonal(result.mesh.points));
+  EXPECT_TRUE(interpolant.report.converged());
+  EXPECT_LE(interpolant.report.max_error, 1e-10 * bounding_diagonal(result.mesh.points));
 }
 
 INSTANTIATE_TEST_SUITE_P(Repair, Mended, testing::ValuesIn(cases()), [](const auto& tested) {

@@ -50,9 +50,8 @@ Values noise_at(const Topology& topology, const Scheme& scheme, ConstValuesRef p
 /// The surface through `numbers`, at the vertices of `levels` refinements.
 Values through(const Topology& topology, const Scheme& scheme, const Values& numbers, int levels) {
   const Interpolant interpolant = Interpolator(topology, scheme).solve(numbers);
-  RefinedSurface surface = ordinary_surface(topology, scheme, interpolant);
-  const int done = surface.topology.vertex_count() > topology.vertex_count() ? 1 : 0;
-  surface = refine(surface.topology, scheme, surface.values, levels - done);
+  const int done = interpolant.topology.vertex_count() > topology.vertex_count() ? 1 : 0;
+  const RefinedSurface surface = refine(interpolant.topology, interpolant.scheme, interpolant.control, levels - done);
   return LimitMatrix(surface.topology, scheme).apply(surface.values);
 }
 

@@ -7,6 +7,7 @@
 #include "batten/error.h"
 #include "batten/mesh/primitives.h"
 #include "batten/parallel/parallel.h"
+#include "batten/refine/refinement.h"
 #include "support/shapes.h"
 
 namespace batten {
@@ -38,7 +39,7 @@ Mesh shaken(Mesh mesh, double amount) {
 }
 
 double error_of(const Mesh& mesh, const Interpolant& result) {
-  return result.max_error / bounding_diagonal(mesh.points);
+  return result.report.max_error / bounding_diagonal(mesh.points);
 }
 
 TEST(Interpolator, PassesThroughANoisyTorus) {
@@ -95,7 +96,7 @@ TEST(Interpolator, PassesThroughSemiSharpCreases) {
     const Interpolant result = solve(mesh, scheme);
     EXPECT_LE(error_of(mesh, result), 1e-10);
     // Forty times faster than BiCGSTAB on the rows; the equations are not symmetric here.
-    EXPECT_EQ(result.report.method, SolveMethod::Chebyshev);
+    EXPECT_EQ(result.report.solve.method, SolveMethod::Chebyshev);
   }
 }
 
@@ -119,7 +120,7 @@ TEST(Interpolator, CarriesOtherColumnsAlong) {
   Values columns(mesh.vertex_count(), 6);
   columns << mesh.points, mesh.points.cwiseAbs();
   const Interpolant result = interpolator.solve(columns);
-  EXPECT_LE(result.max_error, 1e-10 * bounding_diagonal(columns));
+  EXPECT_LE(result.report.max_error, 1e-10 * bounding_diagonal(columns));
   EXPECT_EQ(result.control.cols(), 6);
 }
 
@@ -141,10 +142,10 @@ TEST(Interpolator, MethodsAgree) {
   for (const SolveMethod method : {SolveMethod::Auto, SolveMethod::ConjugateGradient, SolveMethod::Chebyshev,
                                    SolveMethod::Jacobi, SolveMethod::Richardson}) {
     const Interpolant result = solve(mesh, kQuads, {method});
-    EXPECT_TRUE(result.report.converged) << result.report.method_name;
+    EXPECT_TRUE(result.report.converged()) << result.report.solve.method_name;
     // An error of 1e-10 in the limit positions is at most 1/lambda_min(A), some 13, times that in the control points.
     EXPECT_LT((result.control - direct.control).rowwise().norm().maxCoeff(), 2e-9 * bounding_diagonal(mesh.points))
-        << result.report.method_name;
+        << result.report.solve.method_name;
   }
 }
 
@@ -191,10 +192,10 @@ TEST(Interpolator, ReportsWhereItIsWorst) {
   const Interpolant result = interpolator.solve(mesh.points);
   const Eigen::VectorXd errors = (interpolator.limit_matrix().apply(result.control) - mesh.points).rowwise().norm();
   Eigen::Index worst = 0;
-  EXPECT_NEAR(result.max_error, errors.maxCoeff(&worst), 1e-15);
-  EXPECT_EQ(result.worst.front().row, worst);
-  EXPECT_NEAR(result.rms_error, errors.norm() / std::sqrt(mesh.vertex_count()), 1e-15);
-  EXPECT_EQ(result.worst.size(), 10U);
+  EXPECT_NEAR(result.report.max_error, errors.maxCoeff(&worst), 1e-15);
+  EXPECT_EQ(result.report.worst.front().row, worst);
+  EXPECT_NEAR(result.report.rms_error, errors.norm() / std::sqrt(mesh.vertex_count()), 1e-15);
+  EXPECT_EQ(result.report.worst.size(), 10U);
 }
 
 TEST(Interpolator, RefusesTargetsOfTheWrongShapeOrValue) {
@@ -224,6 +225,75 @@ TEST(Interpolator, SolvesAPoleOfHighValenceAndAFaceOfManySides) {
   for (Index v = 0; v < n; ++v) prism.face_vertices.push_back(n + v);
   prism.face_offsets.push_back(static_cast<Index>(prism.face_vertices.size()));
   EXPECT_LE(error_of(prism, solve(prism, kQuads)), 1e-10);
+}
+
+TEST(Interpolator, RefusesOptionsBeforeItBuilds) {
+  const Topology quads(torus(8, 6));
+  for (const InterpolateOptions& options :
+       {InterpolateOptions{SolveMethod::Auto, 0.0}, InterpolateOptions{SolveMethod::Jacobi, 1e-10, -1.0},
+        InterpolateOptions{SolveMethod::Auto, 1e-10, 0.5, -1}}) {
+    try {
+      Interpolator(quads, kLoop, options);  // quads under Loop are an error too, but a later one
+      ADD_FAILURE() << "no error";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::BadArgument) << error.what();
+    }
+  }
+}
+
+TEST(Interpolator, NamesTheMethodThatSolved) {
+  Mesh mesh = shaken(torus(12, 9), 0.02);
+  EXPECT_EQ(solve(mesh, kQuads).report.solve.method, SolveMethod::Chebyshev);
+  EXPECT_EQ(solve(mesh, kQuads, {SolveMethod::Direct}).report.solve.method, SolveMethod::Direct);
+  EXPECT_EQ(solve(mesh, kQuads, {SolveMethod::ConjugateGradient}).report.solve.method, SolveMethod::ConjugateGradient);
+  mesh.creases = {{mesh.face_vertices[0], mesh.face_vertices[1], 10.0}};  // darts
+  EXPECT_EQ(solve(mesh, kQuads, {SolveMethod::ConjugateGradient}).report.solve.method, SolveMethod::BiCgStab);
+}
+
+/// At 4.5e7 numbers are rounded by up to 3.7e-9.
+TEST(Interpolator, ComesAsNearAsDoublesFarFromTheOrigin) {
+  Mesh mesh = shaken(tetrahedron(), 0.1);
+  mesh.points.rowwise() += Eigen::RowVector3d(4.5e7, 5.2e6, 300.0);
+  const Interpolant result = solve(mesh, kQuads);
+  EXPECT_EQ(result.report.outcome, Outcome::Rounding);
+  EXPECT_LE(result.report.max_error, 1e-8);
+  Mesh near = mesh;
+  near.points.rowwise() -= Eigen::RowVector3d(4.5e7, 5.2e6, 300.0);
+  Values moved = solve(near, kQuads, {SolveMethod::Direct}).control;
+  moved.rowwise() += Eigen::RowVectorXd(Eigen::RowVector3d(4.5e7, 5.2e6, 300.0));
+  EXPECT_LE((result.control - moved).cwiseAbs().maxCoeff(), 1.5e-8);  // 2 units in the last place
+}
+
+TEST(Interpolator, DoesNotClaimAToleranceBelowRounding) {
+  const Interpolant result = solve(shaken(torus(12, 9), 0.02), kQuads, {SolveMethod::Auto, 1e-17});
+  EXPECT_EQ(result.report.outcome, Outcome::Rounding);
+  EXPECT_LE(result.report.max_error, 1e-14);
+}
+
+TEST(Interpolator, HoldsASmallComponentToItsOwnSize) {
+  Mesh mesh = shaken(torus(16, 12), 0.02);
+  const Mesh small = shaken(torus(16, 12), 0.03);
+  const Index count = mesh.vertex_count();
+  mesh.points *= 1e6;
+  mesh.points.conservativeResize(2 * count, 3);
+  mesh.points.bottomRows(count) = small.points;
+  for (Index f = 0; f < small.face_count(); ++f) {
+    for (Index i = 0; i < 4; ++i) mesh.face_vertices.push_back(count + small.face_vertices[4 * f + i]);
+    mesh.face_offsets.push_back(static_cast<Index>(mesh.face_vertices.size()));
+  }
+  const Interpolant result = solve(mesh, kQuads);
+  EXPECT_EQ(result.report.outcome, Outcome::Reached);
+  const Topology topology(mesh);
+  const Values miss = LimitMatrix(topology, kQuads).apply(result.control) - mesh.points;
+  EXPECT_LE(miss.bottomRows(count).rowwise().norm().maxCoeff(), 1e-10 * bounding_diagonal(small.points));
+}
+
+TEST(Interpolator, ReachesValuesThatAreEverywhereTheSame) {
+  const Mesh mesh = torus(12, 9);
+  const Topology topology(mesh);
+  const Interpolant result = Interpolator(topology, kQuads).solve(Values::Constant(mesh.vertex_count(), 1, 0.1));
+  EXPECT_EQ(result.report.outcome, Outcome::Reached);
+  EXPECT_TRUE((result.control.array() == 0.1).all());
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ int main(int /*argc*/, char** argv) {
     for (const auto method : {batten::SolveMethod::Auto, batten::SolveMethod::Direct}) {
       const batten::Interpolator interpolator(topology, batten::choose_scheme(mesh), {.method = method});
       batten::Interpolant result = interpolator.solve(targets);
-      if (result.max_error > 1e-8) return std::printf("max error %g\n", result.max_error), 1;
+      if (result.report.max_error > 1e-8) return std::printf("max error %g\n", result.report.max_error), 1;
       result.control = targets;  // freed or kept here
       mesh.attributes.assign(1, batten::Attribute{"normal", std::move(result.control), {}});
       Eigen::SparseMatrix<double, Eigen::RowMajor> matrix = interpolator.limit_matrix().matrix();

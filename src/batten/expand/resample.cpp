@@ -42,7 +42,7 @@ Resampled resample(const Topology& source, const Scheme& source_scheme, ConstVal
   Interpolant interpolant =
       Interpolator(source, source_scheme, options).solve(places, progress_within(progress, kFound, 1.0));
   result.control = std::move(interpolant.control);
-  result.max_error = interpolant.max_error;
+  result.max_error = interpolant.report.max_error;
   return result;
 }
 

@@ -141,10 +141,10 @@ SurfaceNoise::SurfaceNoise(const Topology& topology, const Scheme& scheme, int l
   }
 }
 
-Values SurfaceNoise::refined_once(int from, const Scheme& scheme, const std::vector<double>& vertex_alpha,
-                                  ConstValuesRef control, const Progress& progress) const {
+Values SurfaceNoise::refined_once(int from, const Scheme& scheme, ConstValuesRef control,
+                                  const Progress& progress) const {
   Values finer(level(from + 1).vertex_count(), control.cols());
-  refine_values(level(from), scheme, vertex_alpha, control, finer.data(), progress);
+  refine_values(level(from), scheme, {}, control, finer.data(), progress);
   return finer;
 }
 
@@ -168,14 +168,16 @@ Values SurfaceNoise::values(ConstValuesRef points, std::span<const NoiseOptions>
     const double end = std::ldexp(1.0, -2 * (levels() - i - 1));
     const Progress part = progress_within(progress, 0.5 * begin, 0.5 * end);
     Values finer;
-    if (control.size() > 0) finer = refined_once(i, scheme, {}, control, progress_within(part, 0.0, 0.1));
+    if (control.size() > 0) finer = refined_once(i, scheme, control, progress_within(part, 0.0, 0.1));
     if (any_at(octaves, i)) {
       const Values numbers =
           numbers_at(octaves, i, places, Values(level(i).vertex_count(), static_cast<Eigen::Index>(noises.size())),
                      progress_within(part, 0.1, 0.5));
-      const Interpolant through = Interpolator(level(i), scheme, {}, progress_within(part, 0.5, 0.6))
-                                      .solve(numbers, progress_within(part, 0.6, 0.9));
-      Values own = refined_once(i, scheme, through.vertex_alpha, through.control, progress_within(part, 0.9, 1.0));
+      Interpolant through = Interpolator(level(i), scheme, {}, progress_within(part, 0.5, 0.6))
+                                .solve(numbers, progress_within(part, 0.6, 0.9));
+      const bool is_refined = through.topology.vertex_count() > level(i).vertex_count();
+      Values own = is_refined ? std::move(through.control)
+                              : refined_once(i, scheme, through.control, progress_within(part, 0.9, 1.0));
       finer = finer.size() > 0 ? Values(finer + own) : std::move(own);
     }
     control = std::move(finer);

@@ -50,8 +50,7 @@ class SurfaceNoise {
   Values values(ConstValuesRef points, std::span<const NoiseOptions> noises, const Progress& progress = {}) const;
 
  private:
-  Values refined_once(int from, const Scheme& scheme, const std::vector<double>& vertex_alpha, ConstValuesRef control,
-                      const Progress& progress) const;
+  Values refined_once(int from, const Scheme& scheme, ConstValuesRef control, const Progress& progress) const;
 
   Topology topology_;
   Scheme scheme_;

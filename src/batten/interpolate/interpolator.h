@@ -1,78 +1,79 @@
 /// \file Control points whose limit surface passes through given targets.
 ///
 /// A is the V-by-V limit matrix (limit/limit_matrix.h): row i takes control points P (V-by-k) to the limit position of
-/// vertex i. Interpolating targets Q means solving A P = Q. Connectivity does not change: the result is an ordinary
-/// control mesh. Corners are their targets; crease and boundary curves are solved one by one (tridiagonal); then the
-/// smooth vertices.
+/// vertex i. Interpolating targets Q means solving A P = Q. Corners are their targets; crease and boundary curves are
+/// solved one by one (tridiagonal); then the smooth vertices. Connectivity stays as it is, except where a component's
+/// system is singular and OnSingular::Alpha acts: then the result is the control mesh refined once, because other
+/// refinement rules act in the first step only. Either way the result is an ordinary Catmull-Clark or Loop surface.
+///
+/// Each component is held to the tolerance of its own bounding box, and is solved relative to its own centre where
+/// that is needed, so that neither a small part of a large scene nor a place far from the origin costs accuracy.
 #pragma once
 #include <memory>
+#include <span>
+#include <string>
 #include <vector>
 
+#include "batten/interpolate/interpolation_report.h"
 #include "batten/limit/limit_matrix.h"
 #include "batten/refine/refinement.h"
 #include "batten/solve/solver.h"
 
 namespace batten {
 
-/// What to do with a component on which arbitrary targets have no control points (a cube: every vertex of valence 3 and
-/// the edges two-colourable), when the targets are not among those that have (MATH 2.2).
-enum class OnSingular {
-  Refuse,        ///< Error(SingularSystem)
-  LeastSquares,  ///< the control points that miss all targets of the component by the same least distance
-  Alpha          ///< Lai's alpha = 1/2 on the component: exact, see ordinary_surface()
-};
+class InterpolationSystem;
 
 /// How to interpolate.
 struct InterpolateOptions {
   SolveMethod method = SolveMethod::Auto;
-  double tolerance = 1e-10;  ///< of the targets' bounding-box diagonal
+  double tolerance = 1e-10;  ///< of each component's bounding-box diagonal
   double omega = 0.5;        ///< damping of SolveMethod::Jacobi
   int max_iterations = 20000;
   OnSingular on_singular = OnSingular::Alpha;
   LimitMasks masks = LimitMasks::Exact;
 };
 
-/// The control points and what was achieved.
+/// Values at the vertices that the surface shall have there, and what messages call them.
+struct Targets {
+  std::string name;                                          ///< "points", or an attribute's name
+  Eigen::Ref<const Values, 0, Eigen::OuterStride<>> values;  ///< V-by-k, row i for vertex i; not copied
+};
+
+/// A surface through the targets: control points, and the connectivity and scheme that make a surface of them.
 struct Interpolant {
-  Values control;          ///< P, V-by-k, in the unit of the targets
-  SolveReport report;      ///< of the smooth vertices
-  double max_error = 0.0;  ///< max_i |A P - Q|_i, measured at the end in double, same unit
-  double rms_error = 0.0;
-  std::vector<RowError> worst;       ///< up to ten, the worst first
-  double max_movement = 0.0;         ///< max_i |P - Q|_i
-  Index singular_components = 0;     ///< components without a surface for arbitrary targets
-  std::vector<double> vertex_alpha;  ///< empty, or the alpha used at each vertex: then see ordinary_surface()
+  Topology topology;  ///< the one given, or that refined once where OnSingular::Alpha acted
+  Scheme scheme;      ///< the one given, and where the topology is refined, of the steps after the first
+  Values control;     ///< one row a vertex of `topology`, in the unit of the targets; row i < V belongs to target i
+  InterpolationReport report;
 };
 
 /// Solves A P = Q for one connectivity and many Q: build once, solve per frame.
 /// Cost: build O(H); solve about 30 passes over the mesh in cache for 1e-10, whatever its size (docs/decisions/002).
 class Interpolator {
  public:
-  /// Throws Error(NotTriangles, BadArgument, Cancelled).
+  /// Throws Error: BadArgument (an option out of its range), NotTriangles, Cancelled.
   Interpolator(const Topology& topology, const Scheme& scheme, const InterpolateOptions& options = {},
                const Progress& progress = {});
   ~Interpolator();
   Interpolator(Interpolator&&) noexcept;
 
+  const Topology& topology() const;
+  const Scheme& scheme() const;
+  /// A.
   const LimitMatrix& limit_matrix() const;
 
   /// targets: V-by-k, row i for vertex i, finite. Safe to call from several threads.
-  /// Where the tolerance is not reached, report.converged is false and the errors say what was; control points that
+  /// Where the tolerance is not reached, report.outcome is NotReached and the errors say what was; control points that
   /// diverged are not given, but the targets in their place.
-  /// Throws Error: BadShape, NotFinite, SingularSystem, Cancelled.
+  /// Throws Error: BadShape, NotFinite, SingularSystem (names the component and its lowest vertex), Cancelled.
   Interpolant solve(ConstValuesRef targets, const Progress& progress = {}) const;
 
+  /// Several sets of values of one surface, each to the tolerance of its own size, all on the same connectivity: where
+  /// alpha must act for one of them, it acts for all. One result a set. Throws what solve() does, and names the set.
+  std::vector<Interpolant> solve_together(std::span<const Targets> sets, const Progress& progress = {}) const;
+
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  std::unique_ptr<const InterpolationSystem> system_;
 };
-
-/// The interpolant as an ordinary Catmull-Clark or Loop surface: itself, or refined once where alpha acted.
-/// Rows 0 .. V-1 are the even vertices; their limit positions are the targets.
-RefinedSurface ordinary_surface(const Topology& topology, const Scheme& scheme, const Interpolant& interpolant,
-                                const Progress& progress = {});
-
-/// Once, from a mesh to the mesh of its interpolating surface's control points.
-Mesh interpolate(const Mesh& mesh, const InterpolateOptions& options = {}, const Progress& progress = {});
 
 }  // namespace batten

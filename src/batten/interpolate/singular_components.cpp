@@ -1,5 +1,7 @@
 #include "batten/interpolate/singular_components.h"
 
+#include <algorithm>
+
 namespace batten {
 
 namespace {
@@ -47,21 +49,9 @@ std::vector<SingularComponent> find_singular_components(const LimitMatrix& matri
   return components;
 }
 
-Buffer<Index> find_valence_two_components(const LimitMatrix& matrix) {
-  const Topology& topology = matrix.topology();
-  Buffer<Index> found;
-  Buffer<Index> seeds;
-  for (Index v = 0; v < topology.vertex_count(); ++v) {
-    if (matrix.row_kind(v) == LimitRow::Smooth && matrix.face_count(v) == 2) seeds.push_back(v);
-  }
-  if (seeds.empty()) return found;
-  const Components components = connected_components(topology);
-  Buffer<std::uint8_t> marked(static_cast<std::size_t>(components.count), 0);
-  for (const Index v : seeds) marked[components.of_vertex[v]] = 1;
-  for (Index v = 0; v < topology.vertex_count(); ++v) {
-    if (marked[components.of_vertex[v]] != 0) found.push_back(v);
-  }
-  return found;
+bool has_valence_two(const LimitMatrix& matrix, const Buffer<Index>& vertices) {
+  return std::any_of(vertices.begin(), vertices.end(),
+                     [&](Index v) { return matrix.row_kind(v) == LimitRow::Smooth && matrix.face_count(v) == 2; });
 }
 
 }  // namespace batten

@@ -1,0 +1,84 @@
+#include "batten/interpolate/interpolated_mesh.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "batten/error.h"
+#include "batten/progress.h"
+#include "batten/refine/refined_mesh.h"
+#include "batten/refine/refinement.h"
+
+namespace batten {
+
+namespace {
+
+constexpr double kSolved = 0.9;  // of the time
+
+/// The mesh refined once without its values at vertices: those are the caller's.
+Mesh refined_labels(const Topology& topology, const Topology& child, SchemeKind kind, Mesh mesh) {
+  Mesh refined = mesh_from_topology(child);
+  refined.groups = refine_groups(topology, kind, std::move(mesh.groups));
+  refined.material_libraries = std::move(mesh.material_libraries);
+  refined.crease_method = mesh.crease_method;
+  refined.triangle_rule = mesh.triangle_rule;
+  for (Attribute& attribute : mesh.attributes) {
+    if (attribute.per_corner()) attribute = refine_at_corners(topology, kind, attribute);
+  }
+  refined.attributes = std::move(mesh.attributes);
+  return refined;
+}
+
+/// Where the scheme itself has alpha, the surface is an ordinary one from its first step on.
+void make_ordinary(const Scheme& scheme, std::vector<Interpolant>& results, const Progress& progress) {
+  if (results.front().scheme.alpha == 0.0) return;
+  for (Interpolant& result : results) result.scheme = scheme.after_first_step();
+  if (scheme.kind != SchemeKind::CatmullClark) return;
+  const bool adds_holes = scheme.boundary == BoundaryRule::None;
+  const Topology& topology = results.front().topology;
+  const Refinement step(adds_holes ? with_surface_holes(topology, scheme) : topology, scheme, {},
+                        progress_within(progress, 0.0, 0.5));
+  const auto count = static_cast<double>(results.size());
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const double begin = 0.5 + 0.5 * static_cast<double>(i) / count;
+    results[i].control = step.apply(results[i].control, progress_within(progress, begin, begin + 0.5 / count));
+    results[i].topology = step.child();
+  }
+}
+
+}  // namespace
+
+bool InterpolatedMesh::converged() const {
+  return std::all_of(reports.begin(), reports.end(), [](const InterpolationReport& one) { return one.converged(); });
+}
+
+InterpolatedMesh interpolate(const Interpolator& interpolator, Mesh mesh, const Progress& progress) {
+  std::erase_if(mesh.attributes, [](const Attribute& attribute) { return attribute.name == "normal"; });
+  std::vector<Targets> sets{{"points", mesh.points}};
+  for (const Attribute& attribute : mesh.attributes) {
+    if (!attribute.per_corner()) sets.push_back({attribute.name, attribute.values});
+  }
+  std::vector<Interpolant> results = interpolator.solve_together(sets, progress_within(progress, 0.0, kSolved));
+  make_ordinary(interpolator.scheme(), results, progress_within(progress, kSolved, 1.0));
+  InterpolatedMesh result{{}, results.front().topology, results.front().scheme, {}, false};
+  result.is_refined = result.topology.vertex_count() != interpolator.topology().vertex_count();
+  result.mesh = result.is_refined ? refined_labels(interpolator.topology(), result.topology, interpolator.scheme().kind,
+                                                   std::move(mesh))
+                                  : std::move(mesh);
+  auto solved = results.begin();
+  result.mesh.points = solved->control;
+  for (Attribute& attribute : result.mesh.attributes) {
+    if (!attribute.per_corner()) attribute.values = std::move((++solved)->control);
+  }
+  for (Interpolant& one : results) result.reports.push_back(std::move(one.report));
+  state_scheme(result.scheme, result.mesh);
+  return result;
+}
+
+InterpolatedMesh interpolate(const Mesh& mesh, const InterpolateOptions& options, const Progress& progress) {
+  const Topology topology(mesh, progress_within(progress, 0.0, 0.3));
+  const Interpolator interpolator(topology, choose_scheme(mesh), options, progress_within(progress, 0.3, 0.7));
+  return interpolate(interpolator, mesh, progress_within(progress, 0.7, 1.0));
+}
+
+}  // namespace batten
