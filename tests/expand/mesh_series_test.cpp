@@ -49,6 +49,30 @@ TEST(MeshSeries, TakesTheLimitMatrixOfTheScheme) {
   });
 }
 
+TEST(MeshSeries, WritesIntoTheCallersMemory) {
+  for_each_series([](const Mesh& mesh, const MeshSeries& series) {
+    Values wide = Values::Constant(mesh.vertex_count(), 5, 7.0);
+    const auto same = [&](const Values& expected) {
+      return (wide.middleCols(1, 3).array() == expected.array()).all() && (wide.col(0).array() == 7.0).all() &&
+             (wide.col(4).array() == 7.0).all();
+    };
+    series.polynomial_into(mesh.points, wide.middleCols(1, 3), {0.5, 2.0, -1.0}, 2);
+    EXPECT_TRUE(same(series.polynomial(mesh.points, {0.5, 2.0, -1.0}, 2)));
+    series.apply_into(mesh.points, wide.middleCols(1, 3));
+    EXPECT_TRUE(same(series.apply(mesh.points)));
+    series.remainder_into(mesh.points, wide.middleCols(1, 3), 3);
+    EXPECT_TRUE(same(series.remainder(mesh.points, 3)));
+    series.term_into(mesh.points, wide.middleCols(1, 3), 2);
+    EXPECT_TRUE(same(series.term(mesh.points, 2)));
+    series.partial_sum_into(mesh.points, wide.middleCols(1, 3), 4);
+    EXPECT_TRUE(same(series.partial_sum(mesh.points, 4)));
+    series.smooth_into(mesh.points, wide.middleCols(1, 3), 1, 5);
+    EXPECT_TRUE(same(series.smooth(mesh.points, 1, 5)));
+    Values wrong(mesh.vertex_count(), 2);
+    EXPECT_THROW(series.apply_into(mesh.points, wrong), Error);
+  });
+}
+
 TEST(MeshSeries, TermsAndWhatTheyLeaveAddUpToTheValues) {
   for_each_series([](const Mesh& mesh, const MeshSeries& series) {
     Values sum = Values::Zero(mesh.vertex_count(), 3);

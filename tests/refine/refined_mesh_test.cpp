@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 
 #include "batten/error.h"
 #include "batten/mesh/primitives.h"
@@ -96,6 +97,21 @@ TEST(RefinedMesh, GroupsFollowTheirFaces) {
   const RefinedMesh refined = refine_mesh(Topology(mesh), {}, mesh, 2);
   EXPECT_EQ(refined.mesh.groups[1].first_face, 32);
   EXPECT_EQ(refined.mesh.groups[2].first_face, 48);
+}
+
+TEST(RefinedMesh, AnAttributeThatIsNotFiniteIsRefusedByName) {
+  Mesh mesh = cube();
+  Attribute heat{"heat", Values::Ones(8, 1), {}};
+  heat.values(5, 0) = std::nan("");
+  mesh.attributes.push_back(heat);
+  const Topology topology(mesh);
+  try {
+    refine_mesh(topology, Scheme(), mesh, 1);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::NotFinite);
+    EXPECT_STREQ(error.what(), "row 5 of the attribute 'heat' is not finite");
+  }
 }
 
 }  // namespace

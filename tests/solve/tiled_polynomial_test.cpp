@@ -14,9 +14,7 @@ using test::random_values;
 /// A cyclic random walk over an n-by-n torus whose weights change from row to row, but not too much.
 class UnevenRows : public RowSource {
  public:
-  explicit UnevenRows(Index n) : n_(n) {}
-  Index size() const override { return n_ * n_; }
-  bool is_free(Index /*row*/) const override { return true; }
+  explicit UnevenRows(Index n) : RowSource(n * n), n_(n) {}
   void row(Index row, RowEntries& entries) const override {
     if (row % 41 == 0) return entries.add(row, 1.0);
     const double side = row % 3 == 0 ? 0.1 : 0.12;

@@ -5,6 +5,7 @@
 
 #include "batten/error.h"
 #include "batten/expand/cotangent_rows.h"
+#include "batten/mesh/checked_values.h"
 #include "batten/parallel/parallel.h"
 #include "batten/solve/tiled_polynomial.h"
 
@@ -36,9 +37,8 @@ std::vector<double> safe_alpha(const Topology& topology, const Scheme& scheme) {
 /// The rows of A with those of the kept vertices replaced by the identity's.
 class KeptRows : public RowSource {
  public:
-  KeptRows(const LimitMatrix& matrix, const Buffer<std::uint8_t>& kept) : matrix_(matrix), kept_(kept) {}
-  Index size() const override { return matrix_.topology().vertex_count(); }
-  bool is_free(Index /*row*/) const override { return true; }
+  KeptRows(const LimitMatrix& matrix, const Buffer<std::uint8_t>& kept)
+      : RowSource(matrix.topology().vertex_count()), matrix_(matrix), kept_(kept) {}
   void row(Index row, RowEntries& entries) const override {
     if (!kept_.empty() && kept_[row] != 0) return entries.add(row, 1.0);
     matrix_.visit_row(row, [&](Index column, double weight) { entries.add(column, weight); });
@@ -49,10 +49,22 @@ class KeptRows : public RowSource {
   const Buffer<std::uint8_t>& kept_;
 };
 
-bool all_finite(ConstValuesRef values) {
-  return parallel_all_of(values.rows(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    return values.middleRows(begin, end - begin).allFinite();
-  });
+/// G^index A as a polynomial in G = E - A: G^index - G^(index + 1).
+std::vector<double> term_coefficients(int index) {
+  if (index < 0) throw Error(ErrorCode::BadArgument, "terms are counted from 0");
+  std::vector<double> coefficients(static_cast<std::size_t>(index) + 2, 0.0);
+  coefficients[coefficients.size() - 2] = 1.0;
+  coefficients.back() = -1.0;
+  return coefficients;
+}
+
+/// The sum of the terms 0 .. last: E - G^(last + 1).
+std::vector<double> sum_coefficients(int last) {
+  if (last < 0) throw Error(ErrorCode::BadArgument, "terms are counted from 0");
+  std::vector<double> coefficients(static_cast<std::size_t>(last) + 2, 0.0);
+  coefficients.front() = 1.0;
+  coefficients.back() = -1.0;
+  return coefficients;
 }
 
 /// The Butterfly schemes pass through their control points: nothing would happen.
@@ -93,7 +105,8 @@ struct MeshSeries::Parts {
   /// G y, one application over the whole mesh.
   void remainder(const Values& y, Values& next) const {
     if (cotangents) return cotangents->apply(y, next);
-    next = matrix.apply(y);
+    next.resize(y.rows(), y.cols());
+    matrix.apply_unchecked(y, next);
     parallel_for(y.rows(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
       for (std::ptrdiff_t v = begin; v < end; ++v) {
         if (!kept.empty() && kept[v] != 0) {
@@ -105,7 +118,7 @@ struct MeshSeries::Parts {
     });
   }
 
-  void sweep(const std::vector<double>& coefficients, int passes, Values& x, const Progress& progress) const {
+  void sweep(const std::vector<double>& coefficients, int passes, ValuesRef x, const Progress& progress) const {
     Values y;
     Values next;
     const double steps = static_cast<double>(passes) * static_cast<double>(coefficients.size() - 1);
@@ -134,49 +147,64 @@ const Topology& MeshSeries::topology() const { return parts_->topology; }
 const LimitMatrix& MeshSeries::limit_matrix() const { return parts_->matrix; }
 bool MeshSeries::is_kept(Index vertex) const { return !parts_->kept.empty() && parts_->kept[vertex] != 0; }
 
-Values MeshSeries::polynomial(ConstValuesRef values, const std::vector<double>& coefficients, int passes,
-                              const Progress& progress) const {
+void MeshSeries::polynomial_into(ConstValuesRef values, ValuesRef result, const std::vector<double>& coefficients,
+                                 int passes, const Progress& progress) const {
   require_vertex_rows(parts_->topology, values);
+  require_shape(result, values.rows(), values.cols());
   if (coefficients.empty()) throw Error(ErrorCode::BadArgument, "a polynomial needs a coefficient");
   if (passes < 0) throw Error(ErrorCode::BadArgument, "passes must not be negative");
-  if (!all_finite(values)) throw Error(ErrorCode::NotFinite, "the values hold a number that is not finite");
-  if (parts_->tiles) {
-    Values result(values.rows(), values.cols());
-    parts_->tiles->apply(coefficients, passes, values, result, progress);
-    return result;
-  }
-  Values x = values;
-  if (x.size() > 0) parts_->sweep(coefficients, passes, x, progress);
-  return x;
+  require_finite(values, "values");
+  if (parts_->tiles) return parts_->tiles->apply(coefficients, passes, values, result, progress);
+  result = values;
+  if (result.size() > 0) parts_->sweep(coefficients, passes, result, progress);
+}
+
+Values MeshSeries::polynomial(ConstValuesRef values, const std::vector<double>& coefficients, int passes,
+                              const Progress& progress) const {
+  Values result(values.rows(), values.cols());
+  polynomial_into(values, result, coefficients, passes, progress);
+  return result;
 }
 
 Values MeshSeries::apply(ConstValuesRef values, const Progress& progress) const {
   return polynomial(values, {1.0, -1.0}, 1, progress);
 }
 
+void MeshSeries::apply_into(ConstValuesRef values, ValuesRef result, const Progress& progress) const {
+  polynomial_into(values, result, {1.0, -1.0}, 1, progress);
+}
+
 Values MeshSeries::remainder(ConstValuesRef values, int power, const Progress& progress) const {
   return polynomial(values, {0.0, 1.0}, power, progress);
 }
 
+void MeshSeries::remainder_into(ConstValuesRef values, ValuesRef result, int power, const Progress& progress) const {
+  polynomial_into(values, result, {0.0, 1.0}, power, progress);
+}
+
 Values MeshSeries::term(ConstValuesRef values, int index, const Progress& progress) const {
-  if (index < 0) throw Error(ErrorCode::BadArgument, "terms are counted from 0");
-  std::vector<double> coefficients(static_cast<std::size_t>(index) + 2, 0.0);
-  coefficients[coefficients.size() - 2] = 1.0;
-  coefficients.back() = -1.0;
-  return polynomial(values, coefficients, 1, progress);
+  return polynomial(values, term_coefficients(index), 1, progress);
+}
+
+void MeshSeries::term_into(ConstValuesRef values, ValuesRef result, int index, const Progress& progress) const {
+  polynomial_into(values, result, term_coefficients(index), 1, progress);
 }
 
 Values MeshSeries::partial_sum(ConstValuesRef values, int last, const Progress& progress) const {
-  if (last < 0) throw Error(ErrorCode::BadArgument, "terms are counted from 0");
-  return smooth(values, last, 1, progress);
+  return polynomial(values, sum_coefficients(last), 1, progress);
+}
+
+void MeshSeries::partial_sum_into(ConstValuesRef values, ValuesRef result, int last, const Progress& progress) const {
+  polynomial_into(values, result, sum_coefficients(last), 1, progress);
 }
 
 Values MeshSeries::smooth(ConstValuesRef values, int m, int passes, const Progress& progress) const {
-  if (m < 0) throw Error(ErrorCode::BadArgument, "m must not be negative");
-  std::vector<double> coefficients(static_cast<std::size_t>(m) + 2, 0.0);
-  coefficients.front() = 1.0;
-  coefficients.back() = -1.0;
-  return polynomial(values, coefficients, passes, progress);
+  return polynomial(values, sum_coefficients(m), passes, progress);
+}
+
+void MeshSeries::smooth_into(ConstValuesRef values, ValuesRef result, int m, int passes,
+                             const Progress& progress) const {
+  polynomial_into(values, result, sum_coefficients(m), passes, progress);
 }
 
 std::vector<double> MeshSeries::energies(ConstValuesRef values, int count, const Progress& progress) const {

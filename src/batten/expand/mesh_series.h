@@ -47,8 +47,9 @@ class MeshSeries {
   bool is_kept(Index vertex) const;
 
   /// (c_0 E + c_1 G + .. + c_d G^d)^passes values. All of the below are such polynomials.
-  /// Memory: 64 bytes a vertex beside the result, twice that for d above 7.
-  /// Throws Error: BadShape, BadArgument (no coefficient, or passes below 0), NotFinite (values), Cancelled.
+  /// Memory: 64 bytes a vertex beside the result, twice that for d above 7; with the limit matrix it is kept for the
+  /// next call.
+  /// Throws Error: BadShape, BadArgument (no coefficient, or passes below 0), NotFinite (naming the row), Cancelled.
   Values polynomial(ConstValuesRef values, const std::vector<double>& coefficients, int passes = 1,
                     const Progress& progress = {}) const;
 
@@ -63,6 +64,16 @@ class MeshSeries {
   /// Lai and Cheng's (8): the partial sum of the terms 0 .. m taken `passes` times. A mode with the eigenvalue a comes
   /// out (1 - (1 - a)^(m+1))^passes times as large.
   Values smooth(ConstValuesRef values, int m, int passes, const Progress& progress = {}) const;
+
+  /// The same, written into `result`, which has the shape of `values` and stands apart from it in memory. Throws
+  /// Error(BadShape) where the shapes differ.
+  void polynomial_into(ConstValuesRef values, ValuesRef result, const std::vector<double>& coefficients, int passes = 1,
+                       const Progress& progress = {}) const;
+  void apply_into(ConstValuesRef values, ValuesRef result, const Progress& progress = {}) const;
+  void remainder_into(ConstValuesRef values, ValuesRef result, int power, const Progress& progress = {}) const;
+  void term_into(ConstValuesRef values, ValuesRef result, int index, const Progress& progress = {}) const;
+  void partial_sum_into(ConstValuesRef values, ValuesRef result, int last, const Progress& progress = {}) const;
+  void smooth_into(ConstValuesRef values, ValuesRef result, int m, int passes, const Progress& progress = {}) const;
 
   /// Of each of the terms 0 .. count - 1 the mean over the vertices of its rows' squared lengths.
   std::vector<double> energies(ConstValuesRef values, int count, const Progress& progress = {}) const;

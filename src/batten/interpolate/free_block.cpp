@@ -24,9 +24,10 @@ void solve_refined(const Factors& factors, const SparseMatrix& a, const Values& 
 
 }  // namespace
 
-FreeBlock::FreeBlock(const LimitMatrix& matrix, Buffer<std::uint8_t> free) : matrix_(matrix), free_(std::move(free)) {
+FreeBlock::FreeBlock(const LimitMatrix& matrix, Buffer<std::uint8_t> free)
+    : RowSource(std::move(free)), matrix_(matrix) {
   for (Index v = 0; v < size(); ++v) {
-    if (free_[v] == 0) continue;
+    if (!is_free(v)) continue;
     ++free_count_;
     symmetric_ = symmetric_ && matrix.row_kind(v) == LimitRow::Smooth;
   }
@@ -36,18 +37,20 @@ void FreeBlock::row(Index row, RowEntries& entries) const {
   matrix_.visit_row(row, [&](Index column, double weight) { entries.add(column, weight); });
 }
 
-Values FreeBlock::masked(ConstValuesRef values) const {
-  Values result = values;
-  parallel_for(result.rows(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+void FreeBlock::mask(Values& values) const {
+  parallel_for(values.rows(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (std::ptrdiff_t v = begin; v < end; ++v) {
-      if (free_[v] == 0) result.row(v).setZero();
+      if (!is_free(static_cast<Index>(v))) values.row(v).setZero();
     }
   });
-  return result;
 }
 
 LinearMap FreeBlock::map() const {
-  return [this](const Values& x, Values& y) { y = masked(matrix_.apply(x)); };
+  return [this](const Values& x, Values& y) {
+    y.resize(x.rows(), x.cols());
+    matrix_.apply_unchecked(x, y);
+    mask(y);
+  };
 }
 
 SolveReport FreeBlock::solve_krylov(ConstValuesRef targets, Values& x, const StopRule& stop) const {
@@ -56,14 +59,15 @@ SolveReport FreeBlock::solve_krylov(ConstValuesRef targets, Values& x, const Sto
   Eigen::VectorXd diagonal = Eigen::VectorXd::Ones(size());
   bool positive = true;
   for (Index v = 0; v < size(); ++v) {
-    if (free_[v] == 0) continue;
+    if (!is_free(v)) continue;
     double entry = 0.0;
     matrix_.visit_row(v, [&](Index column, double weight) { entry += column == v ? weight : 0.0; });
     scale[v] = matrix_.row_scale(v);
     diagonal[v] = entry;
     positive = positive && entry > 0.0;
   }
-  const Values b = masked(targets);
+  Values b = targets;
+  mask(b);
   SolveReport report;
   if (symmetric_ && positive) {
     report = conjugate_gradients(map(), scale, scale.cwiseProduct(diagonal), b, x, stop);
@@ -82,7 +86,7 @@ SolveReport FreeBlock::solve_direct(ConstValuesRef targets, Values& x, const Sto
   std::vector<Index> place(static_cast<std::size_t>(size()), -1);
   Index count = 0;
   for (Index v = 0; v < size(); ++v) {
-    if (free_[v] != 0) place[v] = count++;
+    if (is_free(v)) place[v] = count++;
   }
   Values b(count, x.cols());
   std::vector<Eigen::Triplet<double>> entries;
@@ -123,8 +127,11 @@ SolveReport FreeBlock::solve_direct(ConstValuesRef targets, Values& x, const Sto
     if (place[v] >= 0) x.row(v) = solution.row(place[v]);
   }
   report.iterations = 2;
-  report.residual_history = {max_row_norm(masked(Values(targets - matrix_.apply(x))))};
-  report.measured_after = {report.iterations};
+  Values residual(x.rows(), x.cols());
+  matrix_.apply_unchecked(x, residual);
+  residual = targets - residual;
+  mask(residual);
+  report.measured(max_row_norm(residual));
   report.converged = report.residual_history.back() <= stop.tolerance;
   report.seconds = watch.seconds();
   return report;

@@ -12,8 +12,6 @@ class FreeBlock : public RowSource {
   /// free: one flag a vertex.
   FreeBlock(const LimitMatrix& matrix, Buffer<std::uint8_t> free);
 
-  Index size() const override { return static_cast<Index>(free_.size()); }
-  bool is_free(Index row) const override { return free_[row] != 0; }
   void row(Index row, RowEntries& entries) const override;
 
   Index free_count() const { return free_count_; }
@@ -29,11 +27,11 @@ class FreeBlock : public RowSource {
   SolveReport solve_direct(ConstValuesRef targets, Values& x, const StopRule& stop) const;
 
  private:
-  Values masked(ConstValuesRef values) const;
+  /// Sets the rows that are not free to zero.
+  void mask(Values& values) const;
   LinearMap map() const;
 
   const LimitMatrix& matrix_;
-  Buffer<std::uint8_t> free_;
   Index free_count_ = 0;
   bool symmetric_ = true;
 };

@@ -7,6 +7,7 @@
 #include "batten/error.h"
 #include "batten/limit/butterfly_normals.h"
 #include "batten/limit/ring_limit.h"
+#include "batten/mesh/checked_values.h"
 #include "batten/parallel/parallel.h"
 #include "batten/refine/child_topology.h"
 
@@ -41,6 +42,11 @@ LimitMatrix::LimitMatrix(const Topology& topology, const Scheme& scheme, LimitOp
   if (!options_.vertex_alpha.empty() && static_cast<Index>(options_.vertex_alpha.size()) != topology.vertex_count()) {
     throw Error(ErrorCode::BadShape, "vertex_alpha must have one entry a vertex");
   }
+  constexpr int kUsualValences = 32;
+  if (!is_interpolating(scheme.kind)) {
+    usual_weights_.push_back({});
+    for (int n = 1; n <= kUsualValences; ++n) usual_weights_.push_back(compute_weights(n, scheme.alpha));
+  }
   kinds_.resize(static_cast<std::size_t>(topology.vertex_count()));
   face_counts_.resize(static_cast<std::size_t>(topology.vertex_count()));
   const auto classify_block = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
@@ -56,8 +62,19 @@ LimitMatrix::LimitMatrix(const Topology& topology, const Scheme& scheme, LimitOp
   }
 }
 
+int LimitMatrix::count_faces(Index vertex) const {
+  if (topology_.uniform_face_size() != 4) return topology_.vertex_face_count(vertex);
+  int count = 0;
+  const Index start = topology_.vertex_half_edge(vertex);
+  for (Index h = start; h >= 0; ++count) {
+    if (h == start && count > 0) break;
+    h = topology_.twin((h & ~3) | ((h + 3) & 3));
+  }
+  return count;
+}
+
 void LimitMatrix::classify(Index vertex, VertexRing& ring) {
-  face_counts_[vertex] = static_cast<std::uint8_t>(std::min<Index>(255, topology_.vertex_face_count(vertex)));
+  face_counts_[vertex] = static_cast<std::uint8_t>(std::min(255, count_faces(vertex)));
   LimitRow row = LimitRow::Smooth;
   const bool plain_triangles =
       scheme_.kind != SchemeKind::CatmullClark || scheme_.triangle_rule == TriangleRule::Catmark;
@@ -111,8 +128,8 @@ void LimitMatrix::add_special_row(Index vertex, VertexRing& ring) {
   special_offsets_.push_back(special_columns_.size());
 }
 
-LimitMatrix::Weights LimitMatrix::smooth_weights(Index vertex, int valence) const {
-  const SmoothMask mask = limit_mask(scheme_.kind, valence, alpha(vertex));
+LimitMatrix::Weights LimitMatrix::compute_weights(int valence, double alpha) const {
+  const SmoothMask mask = limit_mask(scheme_.kind, valence, alpha);
   return {mask.vertex, mask.edge, mask.face};
 }
 
@@ -144,14 +161,17 @@ Index LimitMatrix::special_place(Index vertex) const {
 }
 
 template <int K>
-void LimitMatrix::apply_columns(const double* in, std::ptrdiff_t stride, Values& out, const Progress& progress) const {
-  const auto columns = K > 0 ? K : static_cast<int>(out.cols());
+void LimitMatrix::apply_columns(ConstValuesRef values, ValuesRef result, Buffer<double>& face_means,
+                                const Progress& progress) const {
+  const double* in = values.data();
+  const std::ptrdiff_t stride = values.outerStride();
+  const auto columns = K > 0 ? K : static_cast<int>(values.cols());
   const auto add = [&](double* target, double weight, const double* row) {
     for (int c = 0; c < (K > 0 ? K : columns); ++c) target[c] += weight * row[c];
   };
   const bool quads = scheme_.kind == SchemeKind::CatmullClark;
-  Buffer<double> face_means(quads ? static_cast<std::size_t>(topology_.face_count()) * columns : 0);
   if (quads) {
+    face_means.resize(static_cast<std::size_t>(topology_.face_count()) * columns);
     const auto means = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
       for (auto f = static_cast<Index>(begin); f < end; ++f) {
         double* mean = face_means.data() + static_cast<std::ptrdiff_t>(f) * columns;
@@ -166,7 +186,7 @@ void LimitMatrix::apply_columns(const double* in, std::ptrdiff_t stride, Values&
   }
   const auto rows = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (auto v = static_cast<Index>(begin); v < end; ++v) {
-      double* target = out.data() + static_cast<std::ptrdiff_t>(v) * columns;
+      double* target = result.data() + v * result.outerStride();
       for (int c = 0; c < columns; ++c) target[c] = 0.0;
       if (row_kind(v) != LimitRow::Smooth) {
         visit_row(v, [&](Index column, double weight) { add(target, weight, in + column * stride); });
@@ -186,15 +206,27 @@ void LimitMatrix::apply_columns(const double* in, std::ptrdiff_t stride, Values&
 }
 
 Values LimitMatrix::apply(ConstValuesRef values, const Progress& progress) const {
+  Values result(values.rows(), values.cols());
+  apply_into(values, result, progress);
+  return result;
+}
+
+void LimitMatrix::apply_into(ConstValuesRef values, ValuesRef result, const Progress& progress) const {
   require_vertex_rows(topology_, values);
-  Values out(values.rows(), values.cols());
-  if (out.size() == 0) return out;
+  require_shape(result, values.rows(), values.cols());
+  require_finite(values, "values");
+  apply_unchecked(values, result, progress);
+}
+
+void LimitMatrix::apply_unchecked(ConstValuesRef values, ValuesRef result, const Progress& progress) const {
+  if (result.size() == 0) return;
+  Buffer<double> face_means = face_means_->take();
   if (values.cols() == 3) {
-    apply_columns<3>(values.data(), values.outerStride(), out, progress);
+    apply_columns<3>(values, result, face_means, progress);
   } else {
-    apply_columns<0>(values.data(), values.outerStride(), out, progress);
+    apply_columns<0>(values, result, face_means, progress);
   }
-  return out;
+  face_means_->give_back(std::move(face_means));
 }
 
 double LimitMatrix::entry_count() const {

@@ -7,9 +7,11 @@
 /// Butterflies A is the identity.
 #pragma once
 #include <Eigen/SparseCore>
+#include <memory>
 #include <vector>
 
 #include "batten/mesh/topology.h"
+#include "batten/parallel/spare.h"
 #include "batten/scheme/masks.h"
 #include "batten/scheme/scheme.h"
 
@@ -53,8 +55,15 @@ class LimitMatrix {
     return face_counts_[vertex] < 255 ? face_counts_[vertex] : static_cast<int>(topology_.vertex_face_count(vertex));
   }
 
-  /// A values: values is V-by-k. Throws Error(BadShape), Error(Cancelled).
+  /// A values: values is V-by-k. Throws Error(BadShape), Error(NotFinite) naming the row, Error(Cancelled).
   Values apply(ConstValuesRef values, const Progress& progress = {}) const;
+
+  /// The same, written into `result`, which has the shape of `values` and stands apart from it in memory. A call keeps
+  /// its working memory for the next, 8 k bytes a face, so that calls for a row of frames allocate nothing.
+  void apply_into(ConstValuesRef values, ValuesRef result, const Progress& progress = {}) const;
+
+  /// apply_into() without its checks, for solvers: what is not finite goes on to the rows that depend on it.
+  void apply_unchecked(ConstValuesRef values, ValuesRef result, const Progress& progress = {}) const;
 
   /// Calls visit(column, weight) for the entries of a row; a column may come several times.
   template <typename Visit>
@@ -79,11 +88,20 @@ class LimitMatrix {
     double edge;
     double face;
   };
+  int count_faces(Index vertex) const;
   void classify(Index vertex, VertexRing& ring);
   void add_special_row(Index vertex, VertexRing& ring);
-  Weights smooth_weights(Index vertex, int valence) const;
+  Weights compute_weights(int valence, double alpha) const;
+  Weights smooth_weights(Index vertex, int valence) const {
+    if (valence < static_cast<int>(usual_weights_.size()) && alpha(vertex) == scheme_.alpha)
+      return usual_weights_[valence];
+    return compute_weights(valence, alpha(vertex));
+  }
+  template <typename Visit>
+  void visit_quad_row(Index vertex, const Visit& visit) const;
   template <int K>
-  void apply_columns(const double* in, std::ptrdiff_t stride, Values& out, const Progress& progress) const;
+  void apply_columns(ConstValuesRef values, ValuesRef result, Buffer<double>& face_means,
+                     const Progress& progress) const;
   Index special_place(Index vertex) const;
 
   Topology topology_;
@@ -95,6 +113,8 @@ class LimitMatrix {
   Buffer<std::size_t> special_offsets_;
   Buffer<Index> special_columns_;
   Buffer<double> special_weights_;
+  std::vector<Weights> usual_weights_;  ///< of smooth rows by valence, with the scheme's alpha
+  std::shared_ptr<Spare<Buffer<double>>> face_means_ = std::make_shared<Spare<Buffer<double>>>();
 };
 
 /// Unit normals of the limit surface, outward for counter-clockwise faces.
@@ -129,13 +149,11 @@ void LimitMatrix::visit_row(Index vertex, const Visit& visit) const {
     case LimitRow::Smooth:
       break;
   }
+  if (topology_.uniform_face_size() == 4 && scheme_.kind == SchemeKind::CatmullClark)
+    return visit_quad_row(vertex, visit);
   const Weights weights = smooth_weights(vertex, face_count(vertex));
   double centre = weights.vertex;
-  const Index uniform = topology_.uniform_face_size();
-  const double uniform_share = uniform > 0 ? weights.face / uniform : 0.0;
-  const auto share_of = [&](Index h) {
-    return uniform > 0 ? uniform_share : weights.face / topology_.face_size(topology_.face(h));
-  };
+  const auto share_of = [&](Index h) { return weights.face / topology_.face_size(topology_.face(h)); };
   topology_.for_each_outgoing(vertex, [&](Index h) {
     if (scheme_.kind == SchemeKind::Loop) return visit(topology_.destination(h), weights.edge);
     // The face left of h, and the one right of it, each give every corner an equal share of the centroid's weight.
@@ -147,6 +165,25 @@ void LimitMatrix::visit_row(Index vertex, const Visit& visit) const {
       visit(topology_.origin(i), share);
     }
   });
+  visit(vertex, centre);
+}
+
+/// A smooth row among quads: the half-edges of face f are 4 f .. 4 f + 3, which saves most of the look-ups.
+template <typename Visit>
+void LimitMatrix::visit_quad_row(Index vertex, const Visit& visit) const {
+  const Weights weights = smooth_weights(vertex, face_count(vertex));
+  const double share = weights.face / 4;
+  const double edge = weights.edge + share + share;
+  double centre = weights.vertex;
+  const Index start = topology_.vertex_half_edge(vertex);
+  for (Index h = start; h >= 0;) {
+    const Index first = h & ~3;
+    centre += share;
+    visit(topology_.origin(first | ((h + 1) & 3)), edge);
+    visit(topology_.origin(first | ((h + 2) & 3)), share);
+    h = topology_.twin(first | ((h + 3) & 3));
+    if (h == start) break;
+  }
   visit(vertex, centre);
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "batten/error.h"
+#include "batten/mesh/checked_values.h"
 #include "batten/parallel/parallel.h"
 #include "batten/progress.h"
 #include "batten/refine/refinement.h"
@@ -154,7 +155,10 @@ RefinedMesh refine_mesh(const Topology& topology, const Scheme& scheme, const Me
   Values points = control.points;
   std::vector<Attribute> attributes;
   for (const Attribute& attribute : control.attributes) {
-    if (attribute.name != "normal") attributes.push_back(attribute);
+    if (attribute.name == "normal") continue;
+    if (levels > 0 && !attribute.per_corner())
+      require_finite(attribute.values, ("attribute '" + attribute.name + "'").c_str());
+    attributes.push_back(attribute);
   }
   std::vector<Group> groups = control.groups;
   Topology current = with_surface_holes(topology, scheme);

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "batten/error.h"
-#include "batten/parallel/parallel.h"
+#include "batten/mesh/checked_values.h"
 #include "batten/refine/child_topology.h"
 #include "batten/refine/refined_values.h"
 #include "batten/refine/vertex_blend.h"
@@ -37,10 +37,23 @@ Refinement::Refinement(const Topology& topology, const Scheme& scheme, std::vect
 }
 
 Values Refinement::apply(ConstValuesRef values, const Progress& progress) const {
+  Values result(child_.vertex_count(), values.cols());
+  apply_into(values, result, progress);
+  return result;
+}
+
+void Refinement::apply_into(ConstValuesRef values, ValuesRef result, const Progress& progress) const {
   require_vertex_rows(topology_, values);
-  Values out(child_.vertex_count(), values.cols());
-  if (out.size() > 0) refine_values(topology_, scheme_, vertex_alpha_, values, out.data(), progress);
-  return out;
+  require_shape(result, child_.vertex_count(), values.cols());
+  require_finite(values, "values");
+  if (result.size() == 0) return;
+  if (result.outerStride() == result.cols()) {
+    refine_values(topology_, scheme_, vertex_alpha_, values, result.data(), progress);
+  } else {
+    Values rows(result.rows(), result.cols());
+    refine_values(topology_, scheme_, vertex_alpha_, values, rows.data(), progress);
+    result = rows;
+  }
 }
 
 RefinedSurface refine(const Topology& topology, const Scheme& scheme, ConstValuesRef values, int levels,

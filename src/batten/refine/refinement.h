@@ -26,8 +26,12 @@ class Refinement {
   Topology child() && { return std::move(child_); }
   const Scheme& scheme() const { return scheme_; }
 
-  /// values: V-by-k, row i for vertex i. Returns V'-by-k. Throws Error(BadShape), Error(Cancelled).
+  /// values: V-by-k, row i for vertex i. Returns V'-by-k. Throws Error(BadShape), Error(NotFinite) naming the row,
+  /// Error(Cancelled).
   Values apply(ConstValuesRef values, const Progress& progress = {}) const;
+
+  /// The same, written into `result`, V'-by-k: nothing is allocated where its rows follow each other in memory.
+  void apply_into(ConstValuesRef values, ValuesRef result, const Progress& progress = {}) const;
 
  private:
   Topology topology_;

@@ -1,8 +1,5 @@
 #include "batten/solve/row_table.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <unordered_map>
 
 #include "batten/parallel/parallel.h"
@@ -27,10 +24,10 @@ class PatternIndex {
 
   Index find_or_add(const RowPattern& pattern) {
     // Neighbouring rows mostly have the pattern of the row before.
-    if (last_ >= 0 && equal(patterns_[last_], pattern)) return last_;
+    if (last_ >= 0 && patterns_[last_] == pattern) return last_;
     std::vector<Index>& bucket = buckets_[hash_of(pattern)];
     for (const Index candidate : bucket) {
-      if (equal(patterns_[candidate], pattern)) return last_ = candidate;
+      if (patterns_[candidate] == pattern) return last_ = candidate;
     }
     bucket.push_back(static_cast<Index>(patterns_.size()));
     patterns_.push_back(pattern);
@@ -38,9 +35,6 @@ class PatternIndex {
   }
 
  private:
-  static bool equal(const RowPattern& a, const RowPattern& b) {
-    return a.diagonal == b.diagonal && a.weights == b.weights;
-  }
   std::vector<RowPattern>& patterns_;
   std::unordered_map<std::size_t, std::vector<Index>> buckets_;
   Index last_ = -1;
@@ -48,27 +42,29 @@ class PatternIndex {
 
 }  // namespace
 
-RowTable::RowTable(const RowSource& source, const Progress& progress) : size_(source.size()) {
-  blocks_.resize(static_cast<std::size_t>(block_count(size_, kBlock)));
+RowTable::RowTable(const RowSource& source, const Progress& progress)
+    : places_(static_cast<std::size_t>(source.size())),
+      block_columns_(static_cast<std::size_t>(block_count(source.size(), kBlock))) {
+  std::vector<Found> found(block_columns_.size());
   parallel_for(
-      size_,
+      size(),
       [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-        fill(source, static_cast<Index>(begin), static_cast<Index>(end), blocks_[begin / kBlock]);
+        fill(source, static_cast<Index>(begin), static_cast<Index>(end), found[begin / kBlock]);
       },
       kBlock, progress);
-  merge_patterns();
+  merge(found);
 }
 
-void RowTable::fill(const RowSource& source, Index first, Index last, Block& block) {
-  PatternIndex index(block.found);
+void RowTable::fill(const RowSource& source, Index first, Index last, Found& found) {
+  PatternIndex index(found.patterns);
   RowEntries entries;
   RowPattern pattern;
-  block.patterns.assign(static_cast<std::size_t>(last - first), -1);
-  block.begins.resize(static_cast<std::size_t>(last - first));
-  block.columns.reserve(static_cast<std::size_t>(last - first) * 9);
+  Buffer<Index>& columns = block_columns_[first / kBlock];
+  columns.reserve(static_cast<std::size_t>(last - first) * 9);
   for (Index row = first; row < last; ++row) {
-    block.begins[row - first] = static_cast<Index>(block.columns.size());
+    places_[row] = {static_cast<Index>(columns.size()), -1};
     if (!source.is_free(row)) continue;
+    ++found.free_count;
     entries.clear();
     source.row(row, entries);
     pattern.diagonal = 0.0;
@@ -78,35 +74,37 @@ void RowTable::fill(const RowSource& source, Index first, Index last, Block& blo
       if (column == row) {
         pattern.diagonal += entries.weights[i];
       } else if (source.is_free(column)) {
-        block.columns.push_back(column);
+        columns.push_back(column);
         pattern.weights.push_back(entries.weights[i]);
       } else {
-        block.held.push_back({row, column, entries.weights[i]});
+        found.held.push_back({row, column, entries.weights[i]});
       }
     }
-    block.patterns[row - first] = index.find_or_add(pattern);
+    places_[row].pattern = index.find_or_add(pattern);
   }
 }
 
-void RowTable::merge_patterns() {
+void RowTable::merge(std::vector<Found>& found) {
   PatternIndex index(patterns_);
-  for (Block& block : blocks_) {
-    std::vector<Index> global;
-    global.reserve(block.found.size());
-    for (const RowPattern& pattern : block.found) global.push_back(index.find_or_add(pattern));
-    for (Index& pattern : block.patterns) {
-      if (pattern < 0) continue;
-      pattern = global[pattern];
-      ++free_count_;
-    }
-    held_.insert(held_.end(), block.held.begin(), block.held.end());
-    std::vector<RowPattern>().swap(block.found);
-    std::vector<HeldEntry>().swap(block.held);
+  std::vector<std::vector<Index>> global(found.size());
+  for (std::size_t b = 0; b < found.size(); ++b) {
+    for (const RowPattern& pattern : found[b].patterns) global[b].push_back(index.find_or_add(pattern));
+    held_.insert(held_.end(), found[b].held.begin(), found[b].held.end());
+    free_count_ += found[b].free_count;
   }
+  parallel_for(
+      size(),
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        for (std::ptrdiff_t row = begin; row < end; ++row) {
+          Index& pattern = places_[row].pattern;
+          if (pattern >= 0) pattern = global[begin / kBlock][pattern];
+        }
+      },
+      kBlock);
   for (RowPattern& pattern : patterns_) {
+    counts_.push_back(static_cast<Index>(pattern.weights.size()));
     for (const double weight : pattern.weights) {
       pattern.normalised.push_back(static_cast<float>(weight / pattern.diagonal));
-      pattern.off_diagonal_sum += std::abs(weight / pattern.diagonal);
     }
   }
 }

@@ -11,7 +11,8 @@ struct RowPattern {
   double diagonal = 0.0;
   std::vector<double> weights;    ///< off the diagonal, as they come
   std::vector<float> normalised;  ///< weights / diagonal
-  double off_diagonal_sum = 0.0;  ///< of |weights| / diagonal
+
+  bool operator==(const RowPattern& other) const { return diagonal == other.diagonal && weights == other.weights; }
 };
 
 /// A free row's entry in a column that is not free.
@@ -21,46 +22,50 @@ struct HeldEntry {
   double weight;
 };
 
+/// Memory: 8 bytes a row and 4 an entry off the diagonal.
 class RowTable {
  public:
   static constexpr Index kBlock = 4096;
 
   explicit RowTable(const RowSource& source, const Progress& progress = {});
 
-  Index size() const { return size_; }
+  Index size() const { return static_cast<Index>(places_.size()); }
   bool is_free(Index row) const { return pattern_of(row) >= 0; }
   Index free_count() const { return free_count_; }
   /// Pattern of a free row, or -1.
-  Index pattern_of(Index row) const { return blocks_[row / kBlock].patterns[row % kBlock]; }
-  const Index* columns(Index row) const {
-    const Block& block = blocks_[row / kBlock];
-    return block.columns.data() + block.begins[row % kBlock];
+  Index pattern_of(Index row) const { return places_[row].pattern; }
+  const Index* columns(Index row) const { return block_columns_[row / kBlock].data() + places_[row].begin; }
+  Index column_count(Index row) const { return counts_[pattern_of(row)]; }
+  /// Brings into the cache, ahead of its use, where the row's entries stand.
+  void prefetch_place(Index row) const { __builtin_prefetch(&places_[row]); }
+  /// Likewise the entries themselves, some rows later.
+  void prefetch_columns(Index row) const {
+    const Index* first = columns(row);
+    __builtin_prefetch(first);
+    __builtin_prefetch(first + 7);
   }
-  /// Brings a row's entries into the cache ahead of their use.
-  void prefetch(Index row) const {
-    const Block& block = blocks_[row / kBlock];
-    __builtin_prefetch(&block.patterns[row % kBlock]);
-    __builtin_prefetch(block.columns.data() + block.begins[row % kBlock]);
-  }
-  Index column_count(Index row) const { return static_cast<Index>(patterns_[pattern_of(row)].weights.size()); }
   const std::vector<RowPattern>& patterns() const { return patterns_; }
   /// In ascending order of rows.
   const std::vector<HeldEntry>& held() const { return held_; }
 
  private:
-  struct Block {
-    Buffer<Index> patterns;
-    Buffer<Index> begins;
-    Buffer<Index> columns;
-    std::vector<RowPattern> found;
-    std::vector<HeldEntry> held;
+  struct Place {
+    Index begin;  ///< of the row's entries among those of its block
+    Index pattern;
   };
-  static void fill(const RowSource& source, Index first, Index last, Block& block);
-  void merge_patterns();
+  /// What a block of rows has besides its columns, until all blocks are merged.
+  struct Found {
+    std::vector<RowPattern> patterns;
+    std::vector<HeldEntry> held;
+    Index free_count = 0;
+  };
+  void fill(const RowSource& source, Index first, Index last, Found& found);
+  void merge(std::vector<Found>& found);
 
-  Index size_;
   Index free_count_ = 0;
-  std::vector<Block> blocks_;
+  Buffer<Place> places_;
+  std::vector<Buffer<Index>> block_columns_;
+  Buffer<Index> counts_;  ///< entries off the diagonal, per pattern
   std::vector<RowPattern> patterns_;
   std::vector<HeldEntry> held_;
 };

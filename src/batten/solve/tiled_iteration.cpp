@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
+#include "batten/parallel/spare.h"
+#include "batten/solve/spectral_bound.h"
 #include "batten/solve/tiles.h"
 
 namespace batten {
@@ -13,6 +14,11 @@ namespace batten {
 namespace {
 
 constexpr int kSteps = TiledIteration::kStepsPerRound;
+
+/// A round that leaves more than this of the residual does not get anywhere.
+constexpr double kStanding = 0.95;
+/// With a bound below this share of the upper one even eight steps of the best polynomial contract by a twentieth only.
+constexpr double kLeastBound = 1e-5;
 
 /// The coefficients of one round: d_k = momentum_k d_{k-1} + step_k D^-1 (b - A x_k), x_{k+1} = x_k + d_k.
 struct Schedule {
@@ -38,6 +44,7 @@ class Chebyshev {
   Chebyshev(double lower, double upper) : lower_(lower), upper_(upper) { restart(lower); }
 
   double lower() const { return lower_; }
+  double upper() const { return upper_; }
 
   void restart(double lower) {
     lower_ = lower;
@@ -71,6 +78,21 @@ class Chebyshev {
     return middle() - half() * std::cosh(at_lowest / steps_);
   }
 
+  /// The same for an iteration that hardly moves, where T_n may be near 1; at least a tenth of the bound.
+  double standing_eigenvalue(double contraction) const {
+    const double at_zero = std::min(steps_ * std::acosh(middle() / half()), 700.0);  // cosh of more is infinite
+    const double polynomial = std::min(contraction, 1.0) * std::cosh(at_zero);
+    if (!(polynomial > 1.0)) return lower_;
+    return std::max(0.1 * lower_, middle() - half() * std::cosh(std::acosh(polynomial) / steps_));
+  }
+
+  /// How far the last `steps` should have contracted the residual: |T_{n - steps}(y(0)) / T_n(y(0))|.
+  double expected_contraction(int steps) const {
+    const double angle = std::acosh(middle() / half());
+    if (steps_ * angle > 700.0) return std::exp(-steps * angle);
+    return std::cosh((steps_ - steps) * angle) / std::cosh(steps_ * angle);
+  }
+
  private:
   double middle() const { return 0.5 * (upper_ + lower_); }
   double half() const { return 0.5 * (upper_ - lower_); }
@@ -94,7 +116,13 @@ struct IterationColumns {
   Buffer<Float4> change;       ///< x less its value one step before
   Buffer<Float4> next_change;  ///< the same, as the running round writes it
 
-  explicit IterationColumns(std::size_t size) : b(size), x(size), residual(size), change(size), next_change(size) {}
+  void resize(std::size_t size) {
+    b.resize(size);
+    x.resize(size);
+    residual.resize(size);
+    change.resize(size);
+    next_change.resize(size);
+  }
 };
 
 /// What a thread needs for one tile.
@@ -211,8 +239,8 @@ void correct(const Tiling& tiling, const Tile& tile, const Schedule& schedule, i
 /// The rounds for up to four columns.
 class Rounds {
  public:
-  Rounds(const Tiling& tiling, const IterationOptions& options, const StopRule& stop)
-      : tiling_(tiling), options_(options), stop_(stop), chebyshev_(options.lower_bound, tiling.upper_bound) {}
+  Rounds(const Tiling& tiling, double upper_bound, const IterationOptions& options, const StopRule& stop)
+      : tiling_(tiling), options_(options), stop_(stop), chebyshev_(options.lower_bound, upper_bound) {}
 
   void run(IterationColumns& columns, double tolerance) {
     const auto tile_count = static_cast<std::ptrdiff_t>(tiling_.tiles.size());
@@ -247,20 +275,25 @@ class Rounds {
   bool converged = false;
 
  private:
-  /// Lowers the bound where the residual falls more slowly than it should, and chooses the number of steps. False: give
-  /// up.
+  /// Lowers the bound where the residual falls more slowly than it should, and chooses the number of steps. False where
+  /// the caller should give up: the residual stands still though no lower bound would explain it, or the bound is too
+  /// low.
   bool adapt(double now, double tolerance, int& steps) {
     if (history.size() == 1) start_ = now;
     if (history.size() < 2) return true;
     const double contraction = now / history[history.size() - 2];
-    if (!(contraction < 0.95)) return false;
-    const double lowest = chebyshev_.lowest_eigenvalue(now / start_);
+    const bool stands = !(contraction < kStanding);
+    const double lowest =
+        stands ? chebyshev_.standing_eigenvalue(now / start_) : chebyshev_.lowest_eigenvalue(now / start_);
     if (lowest < 0.9 * chebyshev_.lower()) {
       chebyshev_.restart(0.9 * lowest);
       start_ = now;
+    } else if (stands && chebyshev_.expected_contraction(last_steps_) < 0.9) {
+      return false;
     }
-    steps = steps_needed(tolerance / now, contraction);
-    return chebyshev_.lower() >= options_.give_up_below;
+    steps = stands ? kSteps : steps_needed(tolerance / now, contraction);
+    last_steps_ = steps;
+    return chebyshev_.lower() >= std::max(options_.give_up_below, kLeastBound * chebyshev_.upper());
   }
 
   const Tiling& tiling_;
@@ -268,28 +301,17 @@ class Rounds {
   const StopRule& stop_;
   Chebyshev chebyshev_;
   double start_ = 0.0;
+  int last_steps_ = kSteps;
 };
 
 }  // namespace
 
 /// The tiles, and the columns of earlier solves: solving again and again must not pay for fresh memory.
 struct TiledIteration::Tiles : Tiling {
-  explicit Tiles(Tiling tiling) : Tiling(std::move(tiling)) {}
+  explicit Tiles(Tiling tiling) : Tiling(std::move(tiling)), upper_bound(spectral_bound(*this)) {}
 
-  std::unique_ptr<IterationColumns> take_columns() {
-    const std::lock_guard<std::mutex> lock(mutex);
-    if (spare.empty()) return std::make_unique<IterationColumns>(order.size());
-    std::unique_ptr<IterationColumns> columns = std::move(spare.back());
-    spare.pop_back();
-    return columns;
-  }
-  void give_back(std::unique_ptr<IterationColumns> columns) {
-    const std::lock_guard<std::mutex> lock(mutex);
-    if (spare.empty()) spare.push_back(std::move(columns));
-  }
-
-  std::mutex mutex;
-  std::vector<std::unique_ptr<IterationColumns>> spare;
+  double upper_bound;  ///< of the spectrum of D^-1 A
+  Spare<IterationColumns> spare;
 };
 
 namespace {
@@ -340,21 +362,22 @@ SolveReport TiledIteration::solve(ConstValuesRef b, ValuesRef x, const Iteration
   report.converged = true;
   // Each group of four columns keeps to its share of a row's allowed length.
   const std::ptrdiff_t groups = (x.cols() + 3) / 4;
-  std::unique_ptr<IterationColumns> columns = tiles_->take_columns();
+  IterationColumns columns = tiles_->spare.take();
+  columns.resize(tiles_->order.size());
   for (std::ptrdiff_t g = 0; g < groups; ++g) {
     const std::ptrdiff_t count = std::min<std::ptrdiff_t>(4, x.cols() - 4 * g);
-    gather(*tiles_, b, x, 4 * g, count, *columns);
-    Rounds rounds(*tiles_, options, stop);
-    rounds.run(*columns, stop.tolerance / std::sqrt(static_cast<double>(groups)));
-    scatter(*tiles_, *columns, 4 * g, count, x);
+    gather(*tiles_, b, x, 4 * g, count, columns);
+    Rounds rounds(*tiles_, tiles_->upper_bound, options, stop);
+    rounds.run(columns, stop.tolerance / std::sqrt(static_cast<double>(groups)));
+    scatter(*tiles_, columns, 4 * g, count, x);
     report.iterations = std::max(report.iterations, rounds.iterations);
     report.converged = report.converged && rounds.converged;
     report.residual_history.insert(report.residual_history.end(), rounds.history.begin(), rounds.history.end());
     report.measured_after.insert(report.measured_after.end(), rounds.measured_after.begin(),
                                  rounds.measured_after.end());
   }
-  if (groups == 1) report.errors = summarise(*tiles_, *columns);
-  tiles_->give_back(std::move(columns));
+  if (groups == 1) report.errors = summarise(*tiles_, columns);
+  tiles_->spare.give_back(std::move(columns));
   report.seconds = watch.seconds();
   return report;
 }

@@ -34,18 +34,31 @@ struct RowEntries {
 class RowSource {
  public:
   virtual ~RowSource() = default;
-  virtual Index size() const = 0;
-  virtual bool is_free(Index row) const = 0;
+  Index size() const { return size_; }
+  bool is_free(Index row) const { return free_.empty() || free_[row] != 0; }
   /// Appends the entries of a free row; the diagonal must be positive. Called from several threads.
   virtual void row(Index row, RowEntries& entries) const = 0;
+
+ protected:
+  /// All rows are free.
+  explicit RowSource(Index size) : size_(size) {}
+  /// free: one flag a row.
+  explicit RowSource(Buffer<std::uint8_t> free) : size_(static_cast<Index>(free.size())), free_(std::move(free)) {}
+
+ private:
+  Index size_;
+  Buffer<std::uint8_t> free_;
 };
 
 struct IterationOptions {
   SolveMethod method = SolveMethod::Chebyshev;  ///< or Jacobi, Richardson
   double omega = 0.5;                           ///< Jacobi's damping
-  double lower_bound = 0.2;  ///< Chebyshev: of the spectrum of D^-1 A to start with; adapts to the measured convergence
-  double give_up_below =
-      0.0;  ///< Chebyshev: stop when the bound had to fall below this (the caller has a better method)
+  /// Chebyshev: a lower bound of the spectrum of D^-1 A to start with. It is lowered where the iteration converges more
+  /// slowly than such a spectrum allows.
+  double lower_bound = 0.2;
+  /// Chebyshev: stop where the bound would have to fall below this, since the caller has a better method. It never
+  /// falls below 1e-5 of the upper bound, where a system is as good as singular.
+  double give_up_below = 0.0;
 };
 
 /// Build: O(nonzeros), 45 to 70 bytes an unknown. Safe to share between threads.

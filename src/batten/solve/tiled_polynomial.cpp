@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <mutex>
-#include <utility>
 
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
+#include "batten/parallel/spare.h"
 #include "batten/solve/tiles.h"
 
 namespace batten {
@@ -139,20 +138,10 @@ void run_round(const Tiling& tiling, const Tile& tile, const Round& round, const
 
 struct TiledPolynomial::Parts {
   Tiling tiling;
-  mutable std::mutex mutex;
-  mutable std::array<PolynomialColumns, 2> spare;
-
-  std::array<PolynomialColumns, 2> take() const {
-    const std::lock_guard<std::mutex> lock(mutex);
-    return std::exchange(spare, {});
-  }
-  void give_back(std::array<PolynomialColumns, 2> columns) const {
-    const std::lock_guard<std::mutex> lock(mutex);
-    spare = std::move(columns);
-  }
+  mutable Spare<std::array<PolynomialColumns, 2>> spare;
 
   void run(const std::vector<Round>& rounds, const Window& window, const Progress& progress) const {
-    std::array<PolynomialColumns, 2> columns = take();
+    std::array<PolynomialColumns, 2> columns = spare.take();
     const std::size_t size = tiling.order.size();
     const bool with_y = !rounds.front().back().last;
     for (std::size_t r = 0; r < std::min<std::size_t>(rounds.size() - 1, 2); ++r) {
@@ -169,7 +158,7 @@ struct TiledPolynomial::Parts {
           tile_count, [&](std::ptrdiff_t t) { run_round(tiling, tiling.tiles[t], rounds[r], places); },
           progress_within(progress, done, done + share));
     }
-    give_back(std::move(columns));
+    spare.give_back(std::move(columns));
   }
 };
 

@@ -50,7 +50,6 @@ struct Tiling {
   std::vector<HeldEntry> held;  ///< with `row` an unknown's place in `order`
   std::vector<RowPattern> patterns;
   double overlap = 0.0;
-  double upper_bound = 0.0;
 };
 
 /// Throws Error(Cancelled) only; a tiling that would need tiles of over 65,536 unknowns comes back with overlap
