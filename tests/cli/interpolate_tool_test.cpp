@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "batten/io/io.h"
 #include "batten/limit/limit_matrix.h"
 #include "batten/mesh/primitives.h"
 #include "batten/refine/refinement.h"

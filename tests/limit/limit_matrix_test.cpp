@@ -72,7 +72,7 @@ TEST(LimitMatrix, RefusesWrongShapesAndWhatIsNotFinite) {
 
 TEST(Refinement, WritesIntoTheCallersMemory) {
   const Mesh mesh = mixed_torus();
-  const Refinement step(Topology(mesh), Scheme());
+  const Refinement step{Topology(mesh), Scheme()};
   const Values expected = step.apply(mesh.points);
   Values result(expected.rows(), 3);
   step.apply_into(mesh.points, result);
@@ -85,7 +85,7 @@ TEST(Refinement, WritesIntoTheCallersMemory) {
 
 TEST(Refinement, RefusesWrongShapesAndWhatIsNotFinite) {
   const Mesh mesh = cube();
-  const Refinement step(Topology(mesh), Scheme());
+  const Refinement step{Topology(mesh), Scheme()};
   Values result(25, 3);
   EXPECT_EQ(code_of([&] { step.apply_into(mesh.points, result); }), ErrorCode::BadShape);
   Values points = mesh.points;

@@ -48,9 +48,9 @@ TEST(NearestPointPole, NoSampleIsNearerThanTheAnswerBesideFansOfManyTriangles) {
 /// them: the memory is linear in N.
 template <typename Net>
 void expect_few_weights(const Topology& base, const Scheme& scheme) {
-  const Pieces pieces(base, scheme, kRingPieceLevels, Pieces::Rest::Rings);
-  RingTypes steps(scheme);
-  const CellShapes<Net> shapes(pieces, steps);
+  const SurfacePatches patches(base, scheme);
+  const Pieces& pieces = patches.pieces();
+  const CellShapes<Net> shapes(patches);
   ASSERT_GE(shapes.most_points(), kPoleValence);
   for (const Piece* piece = pieces.begin(0); piece != pieces.end(base.face_count() - 1); ++piece) {
     if (piece->kind == Piece::Kind::Patch) continue;
