@@ -1,5 +1,6 @@
 #include "batten/solve/row_table.h"
 
+#include <algorithm>
 #include <unordered_map>
 
 #include "batten/parallel/parallel.h"
@@ -8,30 +9,47 @@ namespace batten {
 
 namespace {
 
-std::size_t hash_of(const RowPattern& pattern) {
-  std::size_t hash = std::hash<double>()(pattern.diagonal);
-  for (const double weight : pattern.weights) {
-    hash = (hash ^ std::hash<double>()(weight)) * 0x9E3779B97F4A7C15ULL;
-    hash ^= hash >> 29;
+/// The weights of a row as they come, before it is known whether another row has them too.
+struct RowWeights {
+  double diagonal = 0.0;
+  Buffer<double> off_diagonal;
+  std::size_t count = 0;
+
+  std::size_t hash() const {
+    std::size_t hash = std::hash<double>()(diagonal);
+    for (std::size_t i = 0; i < count; ++i) {
+      hash = (hash ^ std::hash<double>()(off_diagonal[i])) * 0x9E3779B97F4A7C15ULL;
+      hash ^= hash >> 29;
+    }
+    return hash;
   }
-  return hash;
-}
+  bool are_those_of(const RowPattern& pattern) const {
+    return pattern.diagonal == diagonal && pattern.weights.size() == count &&
+           std::equal(pattern.weights.begin(), pattern.weights.end(), off_diagonal.begin());
+  }
+};
 
 /// Numbers patterns by first appearance.
 class PatternIndex {
  public:
   explicit PatternIndex(std::vector<RowPattern>& patterns) : patterns_(patterns) {}
 
-  Index find_or_add(const RowPattern& pattern) {
+  Index find_or_add(const RowWeights& weights) {
     // Neighbouring rows mostly have the pattern of the row before.
-    if (last_ >= 0 && patterns_[last_] == pattern) return last_;
-    std::vector<Index>& bucket = buckets_[hash_of(pattern)];
+    if (last_ >= 0 && weights.are_those_of(patterns_[last_])) return last_;
+    std::vector<Index>& bucket = buckets_[weights.hash()];
     for (const Index candidate : bucket) {
-      if (patterns_[candidate] == pattern) return last_ = candidate;
+      if (weights.are_those_of(patterns_[candidate])) return last_ = candidate;
     }
     bucket.push_back(static_cast<Index>(patterns_.size()));
-    patterns_.push_back(pattern);
+    const double* first = weights.off_diagonal.data();
+    patterns_.push_back({weights.diagonal, {first, first + weights.count}, {}});
     return last_ = bucket.back();
+  }
+
+  Index find_or_add(const RowPattern& pattern) {
+    RowWeights weights{pattern.diagonal, {pattern.weights.begin(), pattern.weights.end()}, pattern.weights.size()};
+    return find_or_add(weights);
   }
 
  private:
@@ -58,29 +76,34 @@ RowTable::RowTable(const RowSource& source, const Progress& progress)
 void RowTable::fill(const RowSource& source, Index first, Index last, Found& found) {
   PatternIndex index(found.patterns);
   RowEntries entries;
-  RowPattern pattern;
+  RowWeights weights;
   Buffer<Index>& columns = block_columns_[first / kBlock];
   columns.reserve(static_cast<std::size_t>(last - first) * 9);
   for (Index row = first; row < last; ++row) {
-    places_[row] = {static_cast<Index>(columns.size()), -1};
+    const std::size_t begin = columns.size();
+    places_[row] = {static_cast<Index>(begin), -1};
     if (!source.is_free(row)) continue;
     ++found.free_count;
     entries.clear();
     source.row(row, entries);
-    pattern.diagonal = 0.0;
-    pattern.weights.clear();
-    for (std::size_t i = 0; i < entries.columns.size(); ++i) {
+    const std::size_t most = entries.columns.size();
+    columns.resize(begin + most);
+    if (weights.off_diagonal.size() < most) weights.off_diagonal.resize(most);
+    weights.diagonal = 0.0;
+    weights.count = 0;
+    for (std::size_t i = 0; i < most; ++i) {
       const Index column = entries.columns[i];
       if (column == row) {
-        pattern.diagonal += entries.weights[i];
+        weights.diagonal += entries.weights[i];
       } else if (source.is_free(column)) {
-        columns.push_back(column);
-        pattern.weights.push_back(entries.weights[i]);
+        columns[begin + weights.count] = column;
+        weights.off_diagonal[weights.count++] = entries.weights[i];
       } else {
         found.held.push_back({row, column, entries.weights[i]});
       }
     }
-    places_[row].pattern = index.find_or_add(pattern);
+    columns.resize(begin + weights.count);
+    places_[row].pattern = index.find_or_add(weights);
   }
 }
 

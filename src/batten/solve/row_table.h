@@ -11,8 +11,6 @@ struct RowPattern {
   double diagonal = 0.0;
   std::vector<double> weights;    ///< off the diagonal, as they come
   std::vector<float> normalised;  ///< weights / diagonal
-
-  bool operator==(const RowPattern& other) const { return diagonal == other.diagonal && weights == other.weights; }
 };
 
 /// A free row's entry in a column that is not free.

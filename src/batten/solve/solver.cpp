@@ -31,7 +31,11 @@ void SolveReport::measured(double residual) {
 
 void SolveReport::append(const SolveReport& next, const std::string& joint) {
   method = next.method;
-  method_name += method_name.empty() ? next.method_name : joint + next.method_name;
+  if (method_name.empty()) {
+    method_name = next.method_name;
+  } else if (method_name.find(next.method_name) == std::string::npos) {
+    method_name += joint + next.method_name;
+  }
   for (const int after : next.measured_after) measured_after.push_back(iterations + after);
   residual_history.insert(residual_history.end(), next.residual_history.begin(), next.residual_history.end());
   iterations += next.iterations;

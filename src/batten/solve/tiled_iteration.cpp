@@ -86,13 +86,6 @@ class Chebyshev {
     return std::max(0.1 * lower_, middle() - half() * std::cosh(std::acosh(polynomial) / steps_));
   }
 
-  /// How far the last `steps` should have contracted the residual: |T_{n - steps}(y(0)) / T_n(y(0))|.
-  double expected_contraction(int steps) const {
-    const double angle = std::acosh(middle() / half());
-    if (steps_ * angle > 700.0) return std::exp(-steps * angle);
-    return std::cosh((steps_ - steps) * angle) / std::cosh(steps_ * angle);
-  }
-
  private:
   double middle() const { return 0.5 * (upper_ + lower_); }
   double half() const { return 0.5 * (upper_ - lower_); }
@@ -276,8 +269,8 @@ class Rounds {
 
  private:
   /// Lowers the bound where the residual falls more slowly than it should, and chooses the number of steps. False where
-  /// the caller should give up: the residual stands still though no lower bound would explain it, or the bound is too
-  /// low.
+  /// the bound had to become too low. A residual that stands still is no reason to give up by itself: on a single mode
+  /// Chebyshev's polynomial may come back from a zero, and one that goes on to stand lowers the bound round by round.
   bool adapt(double now, double tolerance, int& steps) {
     if (history.size() == 1) start_ = now;
     if (history.size() < 2) return true;
@@ -288,11 +281,8 @@ class Rounds {
     if (lowest < 0.9 * chebyshev_.lower()) {
       chebyshev_.restart(0.9 * lowest);
       start_ = now;
-    } else if (stands && chebyshev_.expected_contraction(last_steps_) < 0.9) {
-      return false;
     }
     steps = stands ? kSteps : steps_needed(tolerance / now, contraction);
-    last_steps_ = steps;
     return chebyshev_.lower() >= std::max(options_.give_up_below, kLeastBound * chebyshev_.upper());
   }
 
@@ -301,7 +291,6 @@ class Rounds {
   const StopRule& stop_;
   Chebyshev chebyshev_;
   double start_ = 0.0;
-  int last_steps_ = kSteps;
 };
 
 }  // namespace
