@@ -61,7 +61,8 @@ struct IterationOptions {
   double give_up_below = 0.0;
 };
 
-/// Build: O(nonzeros), 45 to 70 bytes an unknown. Safe to share between threads.
+/// Build: O(nonzeros). Memory, on regular quads: 77 bytes an unknown while it is built, of which 31 stay. Safe to share
+/// between threads.
 class TiledIteration {
  public:
   static constexpr int kStepsPerRound = 8;
