@@ -112,7 +112,6 @@ void NetMatrix<QuadNet, 16>::apply(const Double4* from, Double4* to) const {
 
 template <typename Net, int kColumns>
 void NetMatrix<Net, kColumns>::apply(const Double4* from, Double4* to) const {
-  std::array<Double4, Net::kPoints> result;
   for (int r = 0; r < Net::kPoints; ++r) {
     Double4 even{};
     Double4 odd{};
@@ -122,9 +121,8 @@ void NetMatrix<Net, kColumns>::apply(const Double4* from, Double4* to) const {
       odd += rows[r][k + 1] * from[k + 1];
     }
     if (k < kColumns) even += rows[r][k] * from[k];
-    result[r] = even + odd;
+    to[r] = even + odd;
   }
-  std::copy(result.begin(), result.end(), to);
 }
 
 template <>

@@ -70,7 +70,7 @@ template <typename Net, int kColumns>
 struct NetMatrix {
   std::array<std::array<double, kColumns>, Net::kPoints> rows;
 
-  /// `to` may be `from`.
+  /// `to` does not overlap `from`.
   void apply(const Double4* from, Double4* to) const;
 };
 

@@ -215,13 +215,13 @@ void SurfaceCells<Net>::add_ring_bounds(Index type, const Double4* ring, int lev
                                         std::vector<Double4>& bounds) const {
   for (int number = 0; number < 4; ++number) {
     const RingTypes::Child& child = patches_.ring_types().child(type, number);
-    std::vector<Double4> points(static_cast<std::size_t>(std::max(child.rows.count(), Index{Net::kPoints})));
+    std::vector<Double4> points(static_cast<std::size_t>(child.rows.count()));
     ring_child_points<Net>(child, ring, points.data());
     if (child.type == RingTypes::kPatch) {
-      spline_matrix<Net>().apply(points.data(), points.data());
-      bounds.insert(bounds.end(), points.begin(), points.begin() + Net::kPoints);
+      bounds.resize(bounds.size() + Net::kPoints);
+      spline_matrix<Net>().apply(points.data(), &bounds[bounds.size() - Net::kPoints]);
     } else if (levels == 1) {
-      bounds.insert(bounds.end(), points.begin(), points.begin() + child.rows.count());
+      bounds.insert(bounds.end(), points.begin(), points.end());
     } else {
       add_ring_bounds(child.type, points.data(), levels - 1, bounds);
     }
