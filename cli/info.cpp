@@ -112,7 +112,7 @@ void describe_interpolation(const Mesh& mesh, const Topology& topology, const Sc
   const double diagonal = bounding_diagonal(targets);
   const double error = diagonal > 0.0 ? found.report.max_error / diagonal : found.report.max_error;
   table.add("interpolation",
-            found.report.singular.size() == 0
+            found.report.singular.empty()
                 ? std::string("no component is singular")
                 : count_of(static_cast<std::int64_t>(found.report.singular.size()), "component is", "components are") +
                       " singular: a surface passes through some sets of points only");

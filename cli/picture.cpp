@@ -114,7 +114,7 @@ Scene surface_scene(const Subject& subject, Coloring coloring, const Progress& p
                   ? spread_creases(topology, scheme.kind, field, level, control.vertex_count())
                   : spread(topology, scheme.kind, field);
     }
-    topology = Topology(std::move(step).child());
+    topology = step.child();
     scheme = scheme.after_first_step();
   }
   Scene scene;

@@ -61,7 +61,7 @@ TessellationErrors compare_with_refinement(const Topology& topology, const Schem
   for (Index n = 1; n < tessellator.steps(); n *= 2) {
     Refinement step(bases.back(), later);
     values = step.apply(values);
-    bases.push_back(std::move(step).child());
+    bases.push_back(step.child());
   }
   const Topology& finest = bases.back();
   const Values limits = LimitMatrix(finest, later).apply(values);

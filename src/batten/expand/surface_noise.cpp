@@ -178,7 +178,11 @@ Values SurfaceNoise::values(ConstValuesRef points, std::span<const NoiseOptions>
       const bool is_refined = through.topology.vertex_count() > level(i).vertex_count();
       Values own = is_refined ? std::move(through.control)
                               : refined_once(i, scheme, through.control, progress_within(part, 0.9, 1.0));
-      finer = finer.size() > 0 ? Values(finer + own) : std::move(own);
+      if (finer.size() > 0) {
+        finer += own;
+      } else {
+        finer.swap(own);
+      }
     }
     control = std::move(finer);
     scheme = scheme.after_first_step();

@@ -16,35 +16,33 @@ class TaskOrder {
   /// Lives while a task runs, also when it ends by an exception.
   class Task {
    public:
-    explicit Task(TaskOrder& order);
-    ~Task();
+#ifdef BATTEN_THREAD_SANITIZER
+    explicit Task(TaskOrder& order) : order_(order) { __tsan_acquire(&order_.begun_); }
+    ~Task() { __tsan_release(&order_.ended_); }
+#else
+    explicit Task(TaskOrder& order) : order_(order) {}
+    ~Task() = default;
+#endif
     Task(const Task&) = delete;
     Task& operator=(const Task&) = delete;
 
    private:
-    TaskOrder& order_;
+    [[maybe_unused]] TaskOrder& order_;
   };
 
-  TaskOrder();
-  ~TaskOrder();
+#ifdef BATTEN_THREAD_SANITIZER
+  TaskOrder() { __tsan_release(&begun_); }
+  ~TaskOrder() { __tsan_acquire(&ended_); }
+#else
+  TaskOrder() = default;
+  ~TaskOrder() = default;
+#endif
   TaskOrder(const TaskOrder&) = delete;
   TaskOrder& operator=(const TaskOrder&) = delete;
 
  private:
-  char begun_ = 0;
-  char ended_ = 0;
+  [[maybe_unused]] char begun_ = 0;
+  [[maybe_unused]] char ended_ = 0;
 };
-
-#ifdef BATTEN_THREAD_SANITIZER
-inline TaskOrder::TaskOrder() { __tsan_release(&begun_); }
-inline TaskOrder::~TaskOrder() { __tsan_acquire(&ended_); }
-inline TaskOrder::Task::Task(TaskOrder& order) : order_(order) { __tsan_acquire(&order_.begun_); }
-inline TaskOrder::Task::~Task() { __tsan_release(&order_.ended_); }
-#else
-inline TaskOrder::TaskOrder() = default;
-inline TaskOrder::~TaskOrder() = default;
-inline TaskOrder::Task::Task(TaskOrder& order) : order_(order) {}
-inline TaskOrder::Task::~Task() = default;
-#endif
 
 }  // namespace batten

@@ -175,11 +175,11 @@ RefinedMesh refine_mesh(const Topology& topology, const Scheme& scheme, const Me
       }
     }
     groups = refine_groups(current, scheme.kind, std::move(groups));
-    current = std::move(step).child();
+    current = step.child();
     step_scheme = scheme.after_first_step();
   }
   Mesh mesh = mesh_of(current, scheme, control, points, std::move(attributes), std::move(groups));
-  return {std::move(current), std::move(mesh)};
+  return {current, std::move(mesh)};
 }
 
 }  // namespace batten

@@ -68,7 +68,7 @@ RefinedSurface refine(const Topology& topology, const Scheme& scheme, ConstValue
     const double middle = 0.5 * (begin + end);
     Refinement step(surface.topology, step_scheme, {}, progress_within(progress, begin, middle));
     surface.values = step.apply(surface.values, progress_within(progress, middle, end));
-    surface.topology = std::move(step).child();
+    surface.topology = step.child();
     step_scheme = scheme.after_first_step();
   }
   return surface;

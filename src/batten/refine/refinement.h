@@ -22,8 +22,7 @@ class Refinement {
   Refinement(const Topology& topology, const Scheme& scheme, std::vector<double> vertex_alpha = {},
              const Progress& progress = {});
 
-  const Topology& child() const& { return child_; }
-  Topology child() && { return std::move(child_); }
+  const Topology& child() const { return child_; }
   const Scheme& scheme() const { return scheme_; }
 
   /// values: V-by-k, row i for vertex i. Returns V'-by-k. Throws Error(BadShape), Error(NotFinite) naming the row,

@@ -10,11 +10,11 @@ namespace batten {
 
 namespace {
 
-constexpr int kSteps = 4;
-static_assert(kSteps < Tile::kRings, "a tile needs a ring for each step");
+constexpr int kBoundSteps = 4;
+static_assert(kBoundSteps < Tile::kRings, "a tile needs a ring for each step");
 
 /// The largest ratio of each step.
-using Ratios = std::array<double, kSteps>;
+using Ratios = std::array<double, kBoundSteps>;
 
 /// One tile's vectors.
 struct PowerScratch {
@@ -48,10 +48,10 @@ double power_step(const Tiling& tiling, const Tile& tile, int last_ring, const f
 
 Ratios tile_ratios(const Tiling& tiling, const Tile& tile) {
   PowerScratch& scratch = scratch_for<PowerScratch>(tile);
-  std::fill_n(scratch.u.begin(), tile.ring_end[kSteps], 1.0F);
+  std::fill_n(scratch.u.begin(), tile.ring_end[kBoundSteps], 1.0F);
   Ratios ratios;
-  for (int step = 0; step < kSteps; ++step) {
-    ratios[step] = power_step(tiling, tile, kSteps - 1 - step, scratch.u.data(), scratch.next.data());
+  for (int step = 0; step < kBoundSteps; ++step) {
+    ratios[step] = power_step(tiling, tile, kBoundSteps - 1 - step, scratch.u.data(), scratch.next.data());
     std::swap(scratch.u, scratch.next);
   }
   return ratios;
@@ -64,7 +64,7 @@ double spectral_bound(const Tiling& tiling) {
       static_cast<std::ptrdiff_t>(tiling.tiles.size()), Ratios{},
       [&](std::ptrdiff_t t, std::ptrdiff_t /*end*/) { return tile_ratios(tiling, tiling.tiles[t]); },
       [](Ratios left, const Ratios& right) {
-        for (int step = 0; step < kSteps; ++step) left[step] = std::max(left[step], right[step]);
+        for (int step = 0; step < kBoundSteps; ++step) left[step] = std::max(left[step], right[step]);
         return left;
       },
       1);

@@ -215,7 +215,9 @@ std::vector<SurfaceWeights::Matrix> SurfaceWeights::rows(std::span<const Surface
 
 SurfaceWeights::Matrix SurfaceWeights::rows(std::span<const SurfacePlace> places, JetPart part,
                                             const Progress& progress) const {
-  return std::move(rows(places, std::span(&part, 1), progress).front());
+  Matrix matrix;
+  matrix.swap(rows(places, std::span(&part, 1), progress).front());
+  return matrix;
 }
 
 }  // namespace batten
