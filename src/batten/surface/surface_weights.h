@@ -13,6 +13,7 @@ namespace batten {
 
 /// What of a Jet a row gives.
 enum class JetPart { Point, Du, Dv, Duu, Duv, Dvv };
+/// All of them, in that order.
 inline constexpr std::array<JetPart, 6> kAllJetParts{JetPart::Point, JetPart::Du,  JetPart::Dv,
                                                      JetPart::Duu,   JetPart::Duv, JetPart::Dvv};
 
