@@ -134,8 +134,9 @@ void add_singular_rows(Table& table, const InterpolationReport& report) {
 
 void add_all_singular_rows(Table& table, const std::vector<InterpolationReport>& reports) {
   for (const InterpolationReport& report : reports) {
-    const bool told = &report != &reports.front() && std::equal(report.singular.begin(), report.singular.end(),
-                                                                reports.front().singular.begin(), alike);
+    const std::vector<SingularReport>& first = reports.front().singular;
+    const bool told = &report != &reports.front() &&
+                      std::equal(report.singular.begin(), report.singular.end(), first.begin(), first.end(), alike);
     if (!told) add_singular_rows(table, report);
   }
 }

@@ -15,7 +15,7 @@ namespace {
 using test::random_values;
 
 /// The tensor product of two cyclic (1, 4, 1)/6 matrices on an n-by-n torus: the limit matrix of a regular quad mesh.
-/// Rows in `held` keep their values. D^-1 A has the spectrum [1/4, 9/4] (MATH 3).
+/// Rows in `held` keep their values. D^-1 A has the spectrum [1/4, 9/4] (docs/mathematics.md, Interpolation).
 class TorusRows : public RowSource {
  public:
   explicit TorusRows(Index n, Index held = 0) : RowSource(flags(n * n, held)), n_(n) {}
@@ -118,7 +118,8 @@ TEST(TiledIteration, IsTheGlobalIterationStepByStep) {
   EXPECT_LT((tiled - plain).cwiseAbs().maxCoeff(), 2e-6);  // the round's correction is a float
 }
 
-/// Contraction per step on the slowest mode, regular quads (MATH 3): Lai 8/9, Thall 7/8; Chebyshev tends to 1/2.
+/// Contraction per step on the slowest mode, regular quads (docs/mathematics.md, Interpolation): Lai 8/9, Thall 7/8;
+/// Chebyshev tends to 1/2.
 double measured_factor(SolveMethod method, double lower_bound) {
   const Index n = 64;
   const TorusRows rows(n);

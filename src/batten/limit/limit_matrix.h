@@ -1,10 +1,10 @@
 /// \file Where the control points' surface passes: limit positions and limit normals at the vertices.
 ///
 /// The limit matrix A is V-by-V; row i takes control points P to the limit position of vertex i: A P. Rows by kind of
-/// vertex (MATH 1.1, 2.1, 3, 4.2): smooth [(n(n-1) + n alpha) v + (2 - alpha) sum e + 4 sum c]/(n(n+5)) on centroids c
-/// (Catmull-Clark) or (w v + sum e)/(w + n) (Loop); crease and boundary (a + 4 v + b)/6; corner and isolated v; a
-/// dart's row is its ring's left eigenvector; where tags still fade, the row of the surface once they have. Under the
-/// Butterflies A is the identity.
+/// vertex (docs/mathematics.md, Limit positions): smooth [(n(n-1) + n alpha) v + (2 - alpha) sum e + 4 sum c]/(n(n+5))
+/// on centroids c (Catmull-Clark) or (w v + sum e)/(w + n) (Loop); crease and boundary (a + 4 v + b)/6; corner and
+/// isolated v; a dart's row is its ring's left eigenvector; where tags still fade, the row of the surface once they
+/// have. Under the Butterflies A is the identity.
 #pragma once
 #include <Eigen/SparseCore>
 #include <memory>
@@ -27,8 +27,8 @@ enum class LimitRow : std::uint8_t {
   Special  ///< stored weights: darts, semi-sharp surroundings, smooth triangles
 };
 
-/// With smooth vertices of valence 2 the limit matrix may have negative eigenvalues (MATH 2.2); Lai's alpha = 1 on
-/// their components makes them positive.
+/// With smooth vertices of valence 2 the limit matrix may have negative eigenvalues (docs/mathematics.md,
+/// Interpolation); Lai's alpha = 1 on their components makes them positive.
 inline constexpr double kValenceTwoAlpha = 1.0;
 
 /// How the rows of a limit matrix are chosen.

@@ -1,12 +1,11 @@
 #include "batten/patch/surface_patches.h"
 
 #include <algorithm>
-#include <cmath>
 #include <mutex>
 #include <optional>
-#include <string>
 
 #include "batten/error.h"
+#include "batten/mesh/checked_values.h"
 #include "batten/patch/face_types.h"
 #include "batten/patch/pieces.h"
 #include "batten/patch/ring_types.h"
@@ -116,10 +115,7 @@ const FaceTypes& SurfacePatches::face_types() const {
 void require_control_points(const Topology& topology, ConstValuesRef control) {
   require_vertex_rows(topology, control);
   if (control.cols() != 3) throw Error(ErrorCode::BadShape, "a limit surface has points of three columns");
-  for (Index v = 0; v < topology.vertex_count(); ++v) {
-    if (std::isfinite(control(v, 0)) && std::isfinite(control(v, 1)) && std::isfinite(control(v, 2))) continue;
-    throw Error(ErrorCode::NotFinite, "control point " + std::to_string(v) + " is not finite");
-  }
+  require_finite(control, "control points");
 }
 
 }  // namespace batten

@@ -7,6 +7,7 @@
 
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
+#include "batten/patch/corner_parameters.h"
 #include "batten/patch/face_types.h"
 
 namespace batten {
@@ -43,8 +44,8 @@ struct Cell {
   Cell child(bool quads, int number) const {
     const double half = 0.5 * size;
     if (!quads && number == 3) return {u0 + half, v0 + half, -half};
-    const bool along = number == 1 || (quads && number == 2);
-    return {u0 + (along ? half : 0.0), v0 + (number >= 2 ? half : 0.0), half};
+    const std::array<double, 2> corner = corner_parameters(quads ? 4 : 3, number);
+    return {u0 + half * corner[0], v0 + half * corner[1], half};
   }
 };
 

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "batten/limit/limit_matrix.h"
-#include "batten/refine/refinement.h"
 
 namespace batten {
 
@@ -93,7 +92,7 @@ Values normals_inside(const TessellatedNormals& surface, const Buffer<Index>& si
   Values refined(surface.vertices.rows(), 3);
   surface.tessellator.refined<double>(surface.control, {refined.data(), static_cast<std::size_t>(refined.size())});
   const Mesh strips = strips_along(surface.tessellator, sides, refined);
-  Scheme scheme = surface.scheme.after_first_step();
+  Scheme scheme = surface.patches.base_scheme();
   scheme.boundary = BoundaryRule::EdgeOnly;
   const Values normals = limit_normals(Topology(strips), scheme, strips.points).vertices;
   const Eigen::Index per_strip = strips.points.rows() / static_cast<Eigen::Index>(sides.size());
@@ -152,10 +151,8 @@ Attribute side_normals(const TessellatedNormals& surface) {
   const Buffer<Index> sides = other_sides(base);
   SideRows rows(surface);
   if (sides.empty()) return rows.attribute();
-  const bool same = base.half_edge_count() == surface.topology.half_edge_count();
-  const Values control =
-      same ? Values(surface.control) : Refinement(surface.topology, surface.scheme).apply(surface.control);
-  const Values at_corners = limit_normals(base, surface.scheme.after_first_step(), control).corners;
+  const Values control = surface.patches.base_values(surface.control);
+  const Values at_corners = limit_normals(base, surface.patches.base_scheme(), control).corners;
   Buffer<std::uint8_t> on_crease(static_cast<std::size_t>(base.vertex_count()), 0);
   for (const Index h : sides) on_crease[base.origin(h)] = on_crease[base.destination(h)] = 1;
   for (Index h = 0; h < base.half_edge_count(); ++h) {

@@ -100,19 +100,16 @@ struct DrawnFaces {
   Buffer<Index> face_rank;   ///< of each base face; -1: not drawn
 };
 
-DrawnFaces drawn_faces(const Topology& topology, const Scheme& scheme, const Topology& base) {
-  const Buffer<std::uint8_t> holes = surface_holes(topology, scheme);
-  const bool same = base.half_edge_count() == topology.half_edge_count();
+DrawnFaces drawn_faces(const SurfacePatches& patches) {
+  const auto control_faces = static_cast<std::size_t>(patches.topology().face_count());
+  const Buffer<std::uint8_t>& holes = patches.holes();
   DrawnFaces faces;
-  faces.face_rank.reserve(static_cast<std::size_t>(base.face_count()));
   Index drawn = 0;
-  for (Index f = 0; f < topology.face_count(); ++f) {
-    faces.of_control.push_back(drawn);
-    for (Index child = same ? 1 : topology.face_size(f); child > 0; --child) {
-      faces.face_rank.push_back(!holes.empty() && holes[f] != 0 ? -1 : drawn++);
-    }
+  for (Index f = 0; f < patches.base().face_count(); ++f) {
+    faces.of_control.resize(static_cast<std::size_t>(patches.control_face(f)) + 1, drawn);
+    faces.face_rank.push_back(!holes.empty() && holes[f] != 0 ? -1 : drawn++);
   }
-  faces.of_control.push_back(drawn);
+  faces.of_control.resize(control_faces + 1, drawn);
   return faces;
 }
 
@@ -128,12 +125,12 @@ Values corners_drawn(const Buffer<Index>& face_rank, Eigen::Index per_face, cons
   return drawn.topRows(per_face * count);
 }
 
-void fill_points(const Topology& topology, const Scheme& scheme, const Mesh& control, const Tessellator& tessellator,
+void fill_points(const SurfacePatches& patches, const Mesh& control, const Tessellator& tessellator,
                  const DrawnFaces& faces, int levels, Mesh& mesh) {
   mesh.points.resize(tessellator.vertex_count(), 3);
-  if (is_interpolating(scheme.kind)) {
+  if (is_interpolating(patches.scheme().kind)) {
     tessellator.limit<double>(control.points, numbers_of(mesh.points));
-    LimitNormals normals = butterfly_grid_normals(tessellator.base(), scheme, mesh.points, levels);
+    LimitNormals normals = butterfly_grid_normals(patches.base(), patches.scheme(), mesh.points, levels);
     const Eigen::Index per_face = Eigen::Index{3} * tessellator.steps() * tessellator.steps();
     const Values at_corners = corners_drawn(faces.face_rank, per_face, normals.corners);
     Attribute differing = corner_normals(mesh.face_vertices, normals.vertices, at_corners);
@@ -142,7 +139,7 @@ void fill_points(const Topology& topology, const Scheme& scheme, const Mesh& con
   Values normals(tessellator.vertex_count(), 3);
   tessellator.limit<double>(control.points, numbers_of(mesh.points), numbers_of(normals));
   Attribute differing =
-      side_normals({topology, scheme, control.points, tessellator, faces.face_rank, mesh.face_vertices, normals});
+      side_normals({patches, control.points, tessellator, faces.face_rank, mesh.face_vertices, normals});
   append_normals(std::move(normals), std::move(differing), mesh);
 }
 
@@ -157,8 +154,9 @@ Mesh surface_mesh(const Topology& topology, const Scheme& scheme, const Mesh& co
     mesh.material_libraries = control.material_libraries;
     return mesh;
   }
-  const Tessellator tessellator(topology, scheme, levels);
-  const DrawnFaces faces = drawn_faces(topology, scheme, tessellator.base());
+  const SurfacePatches patches(topology, scheme);
+  const Tessellator tessellator(patches, levels);
+  const DrawnFaces faces = drawn_faces(patches);
   constexpr double kBuilt = 0.1;  // of the time
   constexpr double kFaces = 0.2;
   report_progress(progress, kBuilt);
@@ -184,7 +182,7 @@ Mesh surface_mesh(const Topology& topology, const Scheme& scheme, const Mesh& co
     }
     report_progress(progress, kFaces + share * static_cast<double>(mesh.attributes.size()));
   }
-  fill_points(topology, scheme, control, tessellator, faces, levels, mesh);
+  fill_points(patches, control, tessellator, faces, levels, mesh);
   report_progress(progress, 1.0);
   return mesh;
 }
