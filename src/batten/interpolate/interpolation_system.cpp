@@ -140,21 +140,25 @@ SolveReport InterpolationSystem::solve_block(ConstValuesRef targets, Values& x, 
       return iterate(options_.method, targets, x, stop);
   }
   if (tiles_ == nullptr) return solve_exhaustively(*block_, targets, x, stop);
-  const Values start = x;
   report = iterate(SolveMethod::Chebyshev, targets, x, stop);
   if (report.converged) return report;
-  if (!x.allFinite()) x = start;
+  if (!x.allFinite()) begin(targets, x);
   SolveReport krylov = block_->solve_krylov(targets, x, stop);
   append_attempt(report, krylov);
   if (report.converged) return report;
-  x = start;
+  begin(targets, x);
   append_attempt(report, try_direct(*block_, targets, x, stop));
   return report;
 }
 
-SolveReport InterpolationSystem::solve(ConstValuesRef targets, Values& x, const StopRule& stop) const {
+void InterpolationSystem::begin(ConstValuesRef targets, Values& x) const {
+  x = targets;
   parallel_for_each(static_cast<std::ptrdiff_t>(curves_.curves.size()),
                     [&](std::ptrdiff_t c) { solve_curve(curves_.curves[c], x); });
+}
+
+SolveReport InterpolationSystem::solve(ConstValuesRef targets, Values& x, const StopRule& stop) const {
+  begin(targets, x);
   return solve_block(targets, x, stop);
 }
 

@@ -38,8 +38,8 @@ class InterpolationSystem {
   /// True for a vertex whose control point is an unknown of a linear system, of block() or of a singular component.
   bool is_unknown(Index vertex) const;
 
-  /// x: the targets at first, then the control points, but for the vertices of singular(). Where block() is not solved,
-  /// the report says so and x holds what the last method left, or what there was before if that is not finite.
+  /// x becomes the control points, but for the vertices of singular(), which get their targets. Where block() is not
+  /// solved, the report says so and x holds what the last method left.
   SolveReport solve(ConstValuesRef targets, Values& x, const StopRule& stop) const;
 
   /// Unknowns by themselves, under a matrix of this connectivity: conjugate gradients or their like and, if the options
@@ -57,6 +57,8 @@ class InterpolationSystem {
 
  private:
   bool wants_tiles() const;
+  /// Where the methods start: the targets, with the curves solved.
+  void begin(ConstValuesRef targets, Values& x) const;
   SolveReport iterate(SolveMethod method, ConstValuesRef targets, Values& x, const StopRule& stop) const;
   SolveReport solve_block(ConstValuesRef targets, Values& x, const StopRule& stop) const;
 

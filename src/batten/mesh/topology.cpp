@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -314,29 +315,31 @@ void require_vertex_rows(const Topology& topology, ConstValuesRef values) {
                                        std::to_string(topology.vertex_count()) + " vertices; give one row a vertex");
 }
 
+/// Trees whose roots are the lowest vertices of what is joined so far; each face joins its corners.
 Components connected_components(const Topology& topology) {
   Components components;
-  components.of_vertex.assign(static_cast<std::size_t>(topology.vertex_count()), -1);
-  Buffer<Index> stack;
-  for (Index seed = 0; seed < topology.vertex_count(); ++seed) {
-    if (components.of_vertex[seed] >= 0) continue;
-    const Index label = components.count++;
-    components.of_vertex[seed] = label;
-    stack.push_back(seed);
-    const auto visit = [&](Index v) {
-      if (components.of_vertex[v] >= 0) return;
-      components.of_vertex[v] = label;
-      stack.push_back(v);
-    };
-    while (!stack.empty()) {
-      const Index v = stack.back();
-      stack.pop_back();
-      topology.for_each_outgoing(v, [&](Index h) {
-        visit(topology.destination(h));
-        visit(topology.origin(topology.previous(h)));
-      });
+  Buffer<Index>& parent = components.of_vertex;
+  parent.resize(static_cast<std::size_t>(topology.vertex_count()));
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root_of = [&](Index v) {
+    while (parent[v] != v) {
+      parent[v] = parent[parent[v]];
+      v = parent[v];
+    }
+    return v;
+  };
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    Index root = root_of(topology.origin(topology.face_begin(f)));
+    for (Index h = topology.face_begin(f) + 1; h < topology.face_end(f); ++h) {
+      const Index other = root_of(topology.origin(h));
+      if (other == root) continue;
+      parent[std::max(root, other)] = std::min(root, other);
+      root = std::min(root, other);
     }
   }
+  // A parent is lower than its children, so it has its number before them.
+  for (Index v = 0; v < topology.vertex_count(); ++v)
+    parent[v] = parent[v] == v ? components.count++ : parent[parent[v]];
   return components;
 }
 
