@@ -148,7 +148,7 @@ TEST(NearestPointSetControl, LeavesTheSurfaceWhereItIsWhenItThrows) {
     expect_same_bits(answers(nearest, queries), first);
   }
   bad(5, 1) = std::numeric_limits<double>::quiet_NaN();
-  test::expect_error([&] { nearest.set_control(bad); }, ErrorCode::NotFinite, "point 5");
+  test::expect_error([&] { nearest.set_control(bad); }, ErrorCode::NotFinite, "row 5 of the control points");
   test::expect_error([&] { nearest.set_control(bad.topRows(7)); }, ErrorCode::BadShape, "7");
   test::expect_error([&] { nearest.set_control(bad.leftCols(2)); }, ErrorCode::BadShape, "three columns");
   expect_same_bits(answers(nearest, queries), first);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -204,8 +205,8 @@ class Pieces::RingKeys {
            std::size_t most)
       : entries_(which.size()), blocks_(static_cast<std::size_t>(block_count(count(), kBlock))) {
     const SharpnessCodes codes(from);
-    const PoleKeys poles(from);
-    const bool large = most == FaceRing::kAnyNumber;
+    std::optional<PoleKeys> poles;
+    if (most == FaceRing::kAnyNumber) poles.emplace(from);
     parallel_for(
         count(),
         [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
@@ -218,7 +219,7 @@ class Pieces::RingKeys {
             if (quads.gather(half_edge)) {
               const char* const code = reinterpret_cast<const char*>(quads.code().data());
               add(i, true, {code, sizeof(QuadRing::Code)}, quads, block);
-            } else if (large && poles.find(half_edge, key)) {
+            } else if (poles && poles->find(half_edge, key)) {
               add(i, false, key, Buffer<Index>(), block);
             } else if (ring.gather(from, scheme, half_edge, most)) {
               add(i, false, ring.key(), ring.vertices().size() > kMostKeptRing ? Buffer<Index>() : ring.vertices(),

@@ -84,6 +84,7 @@ struct LimitSurface::Parts {
   bool quads;
   const Pieces& pieces;
   const RingTypes& types;
+  Buffer<Index> ring_types;  ///< of each shared ring
   RingBlocks blocks;
   RingDescents descents;
   int kept_halvings = 0;
@@ -99,6 +100,9 @@ struct LimitSurface::Parts {
         types(patches.ring_types()),
         blocks(types, kMostKeptHalvings),
         descents(types) {
+    for (std::size_t i = 0; i < pieces.shared_rings().size(); ++i) {
+      ring_types.push_back(patches.ring_type(static_cast<std::int32_t>(i)));
+    }
     lay_out_trees();
   }
 
@@ -123,7 +127,7 @@ void LimitSurface::Parts::lay_out_trees() {
   const auto most = kKeptPointsPerVertex * static_cast<std::size_t>(base().vertex_count());
   Buffer<std::size_t> pieces_of_type(static_cast<std::size_t>(types.type_count()), 0);
   for (const Piece* piece = begin; piece != end; ++piece) {
-    if (piece->kind != Piece::Kind::Patch) ++pieces_of_type[patches.ring_type(*piece)];
+    if (piece->kind != Piece::Kind::Patch) ++pieces_of_type[ring_types[piece->shared_ring]];
   }
   for (int depth = 1; depth <= kMostKeptHalvings; ++depth) {
     std::size_t total = 0;
@@ -143,7 +147,7 @@ void LimitSurface::Parts::lay_out_trees() {
         tree_starts[piece - begin] = kOpenPatch;
       }
     } else if (kept_halvings > 0) {
-      size += blocks.node(blocks.node_of(patches.ring_type(*piece), kept_halvings)).size;
+      size += blocks.node(blocks.node_of(ring_types[piece->shared_ring], kept_halvings)).size;
     }
   }
   trees.resize(size);
@@ -164,7 +168,7 @@ void LimitSurface::Parts::set_control(ConstValuesRef control, const Progress& pr
           for (auto f = static_cast<Index>(begin); f < end; ++f) {
             for (const Piece* piece = pieces.begin(f); piece != pieces.end(f); ++piece) {
               if (piece->kind == Piece::Kind::Patch) continue;
-              blocks.fill(blocks.node_of(patches.ring_type(*piece), kept_halvings), level[piece->level].data(),
+              blocks.fill(blocks.node_of(ring_types[piece->shared_ring], kept_halvings), level[piece->level].data(),
                           pieces.ring(*piece, ring).data(), Double4{}, &filled[tree_starts[number_of(*piece)]],
                           scratch);
             }
@@ -226,7 +230,7 @@ void LimitSurface::Parts::set_on_ring(const Piece& piece, double u, double v, do
                                       Jet& jet) const {
   const double first_u = u;
   const double first_v = v;
-  Descent at{patches.ring_type(piece), points[piece.level].data(), pieces.ring(piece, scratch.gathered).data(),
+  Descent at{ring_types[piece.shared_ring], points[piece.level].data(), pieces.ring(piece, scratch.gathered).data(),
              Double4{}};
   int halvings = 0;
   if (kept_halvings > 0) {
