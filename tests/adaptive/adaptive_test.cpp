@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <map>
 #include <random>
 
+#include "batten/adaptive/cell_faces.h"
 #include "batten/error.h"
 #include "batten/limit/limit_matrix.h"
 #include "batten/mesh/triangulate.h"
@@ -374,6 +376,45 @@ TEST(Adaptive, RefusesBoundsThatCannotBe) {
   options.max_faces = 100'000;
   options.max_level = 2;
   EXPECT_GT(tessellated(which, options).unmet, 0);
+}
+
+TEST(Adaptive, CountsACellOnceWhateverItIsBeyond) {
+  const Case which{"cube", cube(), Scheme{}};
+  AdaptiveOptions options;
+  options.chord = 1e-9;
+  options.edge_length = 1e-9;
+  options.max_level = 1;
+  EXPECT_EQ(tessellated(which, options).unmet, 24);
+}
+
+TEST(Adaptive, CountsACellOnceThoughItWasMeasuredBeforeItWasQuartered) {
+  const Case which{"cube", cube(), Scheme{}};
+  AdaptiveOptions options;
+  options.edge_length = 1e-9;
+  options.faces = FaceKind::Quads;
+  options.max_level = 0;
+  EXPECT_EQ(tessellated(which, options).unmet, 6);
+}
+
+TEST(Adaptive, CountsACellOnceThoughFacesOfItBetweenOthersAreWithinTheBound) {
+  const Case which{"cube", cube(), Scheme{}};
+  AdaptiveOptions options;
+  options.faces = FaceKind::Quads;
+  options.max_level = 0;
+  int asked = 0;
+  options.cut = [&](const AdaptiveFace&) { return asked++ % 2 == 0; };
+  EXPECT_EQ(tessellated(which, options).unmet, 6);
+}
+
+TEST(Adaptive, AMeshHasNoMoreCornersThanAnIndexCounts) {
+  const Index all = std::numeric_limits<Index>::max();
+  EXPECT_EQ(most_faces(all, 4), 536'870'911);
+  EXPECT_EQ(most_faces(all, 3), 715'827'882);
+  EXPECT_EQ(most_faces(1000, 4), 1000);
+  const Case which{"cube", cube(), Scheme{}};
+  AdaptiveOptions options = chord_of(which, 0.1, FaceKind::Quads);
+  options.max_faces = all;
+  EXPECT_GT(tessellated(which, options).mesh.face_count(), 0);
 }
 
 }  // namespace

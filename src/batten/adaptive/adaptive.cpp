@@ -41,8 +41,7 @@ void check(const AdaptiveOptions& options, const Scheme& scheme) {
   }
   if (is_interpolating(scheme.kind) && options.chord > 0.0) {
     bad(std::string(scheme_name(scheme.kind)) +
-        " surfaces have no closed form to measure a chord by; take an edge length or an angle (--edge-length, "
-        "--angle)");
+        " surfaces have no closed form to measure a chord by; take an edge length or an angle");
   }
   if (is_interpolating(scheme.kind) && options.faces == FaceKind::Quads) {
     bad(std::string(scheme_name(scheme.kind)) + " surfaces are tessellated in triangles, not in quads");
@@ -100,6 +99,10 @@ class AdaptiveBuilder {
   }
   bool base_suffices();
   void cut_by_chord_tolerance(const Progress& progress);
+  Index least_faces_per_leaf() const {
+    return quartered_ ? forest_.corner_count() : quads_ ? 1 : forest_.corner_count() - 2;
+  }
+  void require_room(std::int64_t faces) const;
   void close();
   Buffer<Index> beyond_measure(const Progress& progress);
   void measure_edges(Buffer<std::uint8_t>& beyond);
@@ -125,7 +128,8 @@ class AdaptiveBuilder {
   Index evaluated_ = 0;  ///< vertices of the forest
   CellFaces faces_;
   CornerNormals normals_;
-  Index unmet_ = 0;
+  Buffer<Index> beyond_chord_;  ///< cells of the last level
+  Index unmet_ = 0;             ///< as the last measure found
   double longest_edge_ = 0.0;
   double widest_angle_ = 0.0;
 };
@@ -163,9 +167,18 @@ bool AdaptiveBuilder::base_suffices() {
 }
 
 void AdaptiveBuilder::cut_by_chord_tolerance(const Progress& progress) {
-  const Index faces_per_leaf = quartered_ ? 4 : quads_ ? 1 : forest_.corner_count() - 2;
-  const ChordRule rule{options_.chord, quartered_, options_.max_level, options_.max_faces / faces_per_leaf};
-  unmet_ = cut_by_chord(nets(), *surface_, points_, rule, forest_, progress);
+  const Index most = most_faces(options_.max_faces, quads_ ? 4 : 3);
+  const ChordRule rule{options_.chord, quartered_, options_.max_level, most / least_faces_per_leaf()};
+  beyond_chord_ = cut_by_chord(nets(), *surface_, points_, rule, forest_, progress);
+}
+
+void AdaptiveBuilder::require_room(std::int64_t faces) const {
+  const Index most = most_faces(options_.max_faces, quads_ ? 4 : 3);
+  if (faces <= most) return;
+  const std::string room = most < options_.max_faces ? " faces that a mesh can have; take larger bounds or fewer levels"
+                                                     : " faces allowed; take larger bounds, fewer levels or allow more "
+                                                       "faces";
+  throw Error(ErrorCode::TooLarge, "the bounds make more than the " + std::to_string(most) + room);
 }
 
 void AdaptiveBuilder::close() {
@@ -173,11 +186,9 @@ void AdaptiveBuilder::close() {
   const std::span<const SurfacePlace> places = forest_.vertex_places();
   add_vertices(places.subspan(static_cast<std::size_t>(evaluated_)), evaluated_);
   evaluated_ = vertices;
+  require_room(std::int64_t{least_faces_per_leaf()} * static_cast<std::int64_t>(forest_.leaves().size()));
   faces_ = quartered_ ? quads_of(forest_) : quads_ ? leaves_of(forest_) : triangles_of(forest_, points_);
-  if (faces_.count() > options_.max_faces) {
-    throw Error(ErrorCode::TooLarge, "the bounds make more than the " + std::to_string(options_.max_faces) +
-                                         " faces allowed; take larger bounds, fewer levels or allow more faces");
-  }
+  require_room(static_cast<std::int64_t>(faces_.cells.size()));
   if (!faces_.added.empty()) add_vertices(faces_.added, vertices);
   const auto normals_at = [&](std::span<const SurfacePlace> at) {
     Points points(static_cast<Eigen::Index>(at.size()), 3);
@@ -260,24 +271,27 @@ void AdaptiveBuilder::measure_by_cut(Buffer<std::uint8_t>& beyond) const {
   }
 }
 
-/// The cells with faces beyond the edge length or the angle; those of the last level are counted instead.
+/// The cells with faces beyond the edge length, the angle or the caller's bound; those of the last level are counted
+/// instead, each once, whatever it is beyond.
 Buffer<Index> AdaptiveBuilder::beyond_measure(const Progress& progress) {
   Buffer<std::uint8_t> beyond(static_cast<std::size_t>(faces_.count()), 0);
   measure_edges(beyond);
   if (options_.angle > 0.0) measure_angles(beyond, progress);
   if (options_.cut) measure_by_cut(beyond);
+  Buffer<std::uint8_t> met(static_cast<std::size_t>(forest_.cell_count()), 1);
+  for (const Index cell : beyond_chord_) met[cell] = 0;
+  unmet_ = static_cast<Index>(beyond_chord_.size());
   Buffer<Index> cells;
-  Index stuck = 0;
   for (Index f = 0; f < faces_.count(); ++f) {
     const Index cell = faces_.cells[f];
-    if (beyond[f] == 0 || (f > 0 && beyond[f - 1] != 0 && faces_.cells[f - 1] == cell)) continue;
+    if (beyond[f] == 0 || met[cell] == 0) continue;
+    met[cell] = 0;
     if (forest_.level(cell) < options_.max_level) {
       cells.push_back(cell);
     } else {
-      ++stuck;
+      ++unmet_;
     }
   }
-  if (cells.empty()) unmet_ += stuck;
   return cells;
 }
 

@@ -44,7 +44,7 @@ struct AdaptiveOptions {
   FaceKind faces = FaceKind::Triangles;
   /// Cells of this level stay, whatever the bounds say: 0 to 16. Quads are once more halved.
   int max_level = 16;
-  /// Error(TooLarge) beyond.
+  /// Error(TooLarge) beyond, and beyond 2^31 - 1 corners.
   Index max_faces = 20'000'000;
 };
 

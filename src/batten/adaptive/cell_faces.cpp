@@ -175,6 +175,8 @@ Index middle_after(const CellForest& forest, Index cell, const Polygon& polygon,
 
 }  // namespace
 
+Index most_faces(Index asked, Index size) { return std::min(asked, std::numeric_limits<Index>::max() / size); }
+
 CellFaces triangles_of(const CellForest& forest, const Points& points) {
   const Buffer<Index> leaves = forest.leaves();
   const Buffer<std::size_t> starts =

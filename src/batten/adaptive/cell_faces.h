@@ -17,6 +17,9 @@ struct CellFaces {
   Index count() const { return static_cast<Index>(cells.size()); }
 };
 
+/// The number of faces of `size` corners that is asked for, or that a mesh can have: an Index counts its corners.
+Index most_faces(Index asked, Index size);
+
 /// Cuts polygons into triangles. A corner between two finer neighbours is cut off. The rest is a fan from the middle of
 /// a side, or from a corner if there is no such vertex, chosen so that the longest diagonal is shortest. points: a row
 /// for each vertex of the forest. O(cells), threaded.

@@ -29,6 +29,9 @@ struct Expansion {
   Point centre;
 };
 
+/// What becomes of a cell: a leaf within the tolerance, a cell that is cut, a leaf of max_level beyond the tolerance.
+enum CellFlag : std::uint8_t { kMet = 0, kCut = 1, kUnmet = 2 };
+
 /// Visits the cells of base faces depth first. Each thread uses its own object.
 class CellWalk {
  public:
@@ -40,7 +43,7 @@ class CellWalk {
         corners_(nets.quads() ? 4 : 3),
         levels_(static_cast<std::size_t>(CellForest::kMostLevels + kLookAhead) + 4) {}
 
-  /// Appends a flag for each cell, depth first: 1 if it is split.
+  /// Appends a CellFlag for each cell, depth first.
   void walk(Index face, const CornerPoints& corners, Buffer<std::uint8_t>& flags) {
     nets_.root(face, root_);
     visit(root_, corners, curve_sides(face), flags);
@@ -49,7 +52,6 @@ class CellWalk {
     nets_.root(face, root_);
     return beyond(root_, corners, curve_sides(face));
   }
-  Index unmet() const { return unmet_; }
   std::int64_t leaves() const { return leaves_; }
 
  private:
@@ -108,7 +110,6 @@ class CellWalk {
   int corners_;
   CellNet root_;
   std::vector<Expansion> levels_;  ///< of the cells from the root to the current one, and of the levels examined ahead
-  Index unmet_ = 0;
   std::int64_t leaves_ = 0;
 };
 
@@ -229,10 +230,9 @@ void CellWalk::visit(const CellNet& net, const CornerPoints& corners, CurveSides
   if (leaves_ > rule_.max_leaves) return;
   const bool wanted = beyond(net, corners, curves);
   const bool cut = wanted && net.level < rule_.max_level;
-  flags.push_back(cut ? 1 : 0);
+  flags.push_back(cut ? kCut : wanted ? kUnmet : kMet);
   if (!cut) {
     ++leaves_;
-    if (wanted) ++unmet_;
     return;
   }
   Expansion& expansion = levels_[static_cast<std::size_t>(net.level)];
@@ -253,38 +253,33 @@ CornerPoints corners_of(const CellForest& forest, const Points& points, Index fa
 
 constexpr std::ptrdiff_t kFacesPerBlock = 16;
 
-/// The flags of a block of base faces.
-struct BlockFlags {
-  Buffer<std::uint8_t> flags;
-  Index unmet = 0;
-};
-
-/// Splits a cell according to its flags and advances past those it read.
-void cut(CellForest& forest, Index cell, const std::uint8_t*& flag) {
-  if (*flag++ == 0) return;
+/// Splits a cell according to its flags, advances past those it read, and notes the leaves beyond the tolerance.
+void cut(CellForest& forest, Index cell, const std::uint8_t*& flag, Buffer<Index>& unmet) {
+  const std::uint8_t own = *flag++;
+  if (own == kUnmet) unmet.push_back(cell);
+  if (own != kCut) return;
   forest.split(cell);
-  for (int k = 0; k < 4; ++k) cut(forest, forest.child(cell, k), flag);
+  for (int k = 0; k < 4; ++k) cut(forest, forest.child(cell, k), flag, unmet);
 }
 
 }  // namespace
 
-Index cut_by_chord(const CellNets& nets, const LimitSurface& surface, const Points& points, const ChordRule& rule,
-                   CellForest& forest, const Progress& progress) {
+Buffer<Index> cut_by_chord(const CellNets& nets, const LimitSurface& surface, const Points& points,
+                           const ChordRule& rule, CellForest& forest, const Progress& progress) {
   const Index faces = forest.base().face_count();
-  std::vector<BlockFlags> blocks(static_cast<std::size_t>(block_count(faces, kFacesPerBlock)));
+  std::vector<Buffer<std::uint8_t>> blocks(static_cast<std::size_t>(block_count(faces, kFacesPerBlock)));
   std::atomic<std::int64_t> leaves{0};
   parallel_for(
       faces,
       [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-        BlockFlags& block = blocks[static_cast<std::size_t>(begin / kFacesPerBlock)];
+        Buffer<std::uint8_t>& flags = blocks[static_cast<std::size_t>(begin / kFacesPerBlock)];
         CellWalk walk(nets, surface, forest, rule);
         for (auto f = static_cast<Index>(begin); f < end && leaves <= rule.max_leaves; ++f) {
           if (forest.is_left_out(f)) continue;
           const std::int64_t before = walk.leaves();
-          walk.walk(f, corners_of(forest, points, f), block.flags);
+          walk.walk(f, corners_of(forest, points, f), flags);
           leaves += walk.leaves() - before;
         }
-        block.unmet = walk.unmet();
       },
       kFacesPerBlock, progress);
   if (leaves > rule.max_leaves) {
@@ -292,14 +287,13 @@ Index cut_by_chord(const CellNets& nets, const LimitSurface& surface, const Poin
                                          std::to_string(rule.max_leaves) +
                                          " cells allowed; take a larger tolerance, fewer levels or allow more faces");
   }
-  Index unmet = 0;
+  Buffer<Index> unmet;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    const std::uint8_t* flag = blocks[b].flags.data();
+    const std::uint8_t* flag = blocks[b].data();
     const auto first = static_cast<Index>(b * kFacesPerBlock);
     for (Index f = first; f < std::min<Index>(first + kFacesPerBlock, faces); ++f) {
-      if (!forest.is_left_out(f)) cut(forest, f, flag);
+      if (!forest.is_left_out(f)) cut(forest, f, flag, unmet);
     }
-    unmet += blocks[b].unmet;
   }
   return unmet;
 }

@@ -13,10 +13,10 @@ struct ChordRule {
   Index max_leaves;
 };
 
-/// Splits the cells of a forest that has only its roots. Returns how many cells of max_level are beyond the tolerance.
+/// Splits the cells of a forest that has only its roots. Returns the cells of max_level that are beyond the tolerance.
 /// points: a row for each vertex of the forest. Throws Error(TooLarge).
-Index cut_by_chord(const CellNets& nets, const LimitSurface& surface, const Points& points, const ChordRule& rule,
-                   CellForest& forest, const Progress& progress = {});
+Buffer<Index> cut_by_chord(const CellNets& nets, const LimitSurface& surface, const Points& points,
+                           const ChordRule& rule, CellForest& forest, const Progress& progress = {});
 
 /// True if no root is beyond the tolerance.
 bool roots_suffice(const CellNets& nets, const LimitSurface& surface, const Points& points, double tolerance,
