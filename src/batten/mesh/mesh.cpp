@@ -1,6 +1,7 @@
 #include "batten/mesh/mesh.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "batten/parallel/parallel.h"
 
@@ -27,7 +28,9 @@ double bounding_diagonal(ConstValuesRef points) {
       [](const Box& a, const Box& b) {
         return Box{a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)};
       });
-  return (box.high - box.low).norm();
+  const Eigen::RowVectorXd size = box.high - box.low;
+  const double diagonal = size.norm();
+  return diagonal > 0.0 && std::isfinite(diagonal) ? diagonal : size.stableNorm();  // squares have left the doubles
 }
 
 bool all_triangles(const Mesh& mesh) {

@@ -6,6 +6,7 @@
 
 #include "batten/error.h"
 #include "batten/limit/limit_matrix.h"
+#include "batten/mesh/checked_values.h"
 #include "batten/progress.h"
 #include "batten/refine/refinement.h"
 #include "batten/tessellate/butterfly_grids.h"
@@ -78,6 +79,7 @@ Mesh limit_mesh(const Topology& topology, const Scheme& scheme, const Mesh& cont
   for (const Attribute& attribute : control.attributes) {
     if (is_left_out(attribute, mesh)) continue;
     if (!attribute.per_corner()) {
+      require_finite(attribute.values, ("attribute '" + attribute.name + "'").c_str());
       mesh.attributes.push_back({attribute.name, limit.apply(attribute.values), {}});
       continue;
     }
@@ -177,6 +179,7 @@ Mesh surface_mesh(const Topology& topology, const Scheme& scheme, const Mesh& co
     if (attribute.per_corner()) {
       mesh.attributes.push_back(tessellator.at_corners(attribute));
     } else {
+      require_finite(attribute.values, ("attribute '" + attribute.name + "'").c_str());
       mesh.attributes.push_back({attribute.name, Values(tessellator.vertex_count(), attribute.values.cols()), {}});
       tessellator.limit<double>(attribute.values, numbers_of(mesh.attributes.back().values));
     }
@@ -185,6 +188,18 @@ Mesh surface_mesh(const Topology& topology, const Scheme& scheme, const Mesh& co
   fill_points(patches, control, tessellator, faces, levels, mesh);
   report_progress(progress, 1.0);
   return mesh;
+}
+
+int picture_levels(const Topology& topology) {
+  constexpr double kFaces = 4e5;
+  constexpr int kMost = 5;
+  double faces = std::max<Index>(topology.face_count(), 1);
+  int levels = 0;
+  while (levels < kMost && faces * 4.0 <= kFaces) {
+    faces *= 4.0;
+    ++levels;
+  }
+  return levels;
 }
 
 }  // namespace batten

@@ -16,9 +16,12 @@ namespace batten {
 /// also at the corners: rows of their own for the sides that differ. Normals of the control mesh are dropped.
 ///
 /// Time and memory O(4^levels H); besides the result some 120 bytes a face of the control mesh, under the Butterflies
-/// 200 bytes a vertex of the result. Throws Error: BadArgument (negative levels, more than 15), BadShape, TooLarge,
-/// NotTriangles, Cancelled.
+/// 200 bytes a vertex of the result. Throws Error: BadArgument (negative levels, more than 15), BadShape, NotFinite,
+/// TooLarge, NotTriangles, Cancelled.
 Mesh surface_mesh(const Topology& topology, const Scheme& scheme, const Mesh& control, int levels,
                   const Progress& progress = {});
+
+/// The levels that make some 400,000 faces of a control mesh, at most 5: enough for a picture of the whole surface.
+int picture_levels(const Topology& topology);
 
 }  // namespace batten

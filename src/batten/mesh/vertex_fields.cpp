@@ -1,0 +1,67 @@
+#include "batten/mesh/vertex_fields.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace batten {
+
+Index isolated_count(const Topology& topology) {
+  const Buffer<Index>& starts = topology.tables().vertex_half_edges;
+  return static_cast<Index>(std::count(starts.begin(), starts.end(), -1));
+}
+
+Scalars vertex_valences(const Topology& topology) {
+  Scalars field = Scalars::Zero(topology.vertex_count());
+  for (Index v = 0; v < topology.vertex_count(); ++v) {
+    if (topology.is_isolated(v)) continue;
+    field[v] = (topology.is_boundary_vertex(v) ? 2.0 : 1.0) * topology.vertex_face_count(v);
+  }
+  return field;
+}
+
+double crease_sharpness(const Topology& topology, Index edge) {
+  if (topology.is_boundary_edge(edge)) return 0.0;
+  return std::min(topology.edge_sharpness(edge), kInfiniteSharpness);
+}
+
+Scalars vertex_sharpnesses(const Topology& topology) {
+  Scalars field = Scalars::Zero(topology.vertex_count());
+  for (Index v = 0; v < topology.vertex_count(); ++v) {
+    field[v] = std::min(topology.vertex_sharpness(v), kInfiniteSharpness);
+  }
+  for (Index e = 0; e < topology.edge_count(); ++e) {
+    const Index h = topology.edge_half_edge(e);
+    for (const Index v : {topology.origin(h), topology.destination(h)}) {
+      field[v] = std::max(field[v], crease_sharpness(topology, e));
+    }
+  }
+  return field;
+}
+
+void fill_from_neighbours(Index face_size, const Buffer<Index>& face_vertices, Scalars& field) {
+  std::vector<std::pair<Index, Index>> neighbours;  // of the vertices without a number
+  const auto size = static_cast<std::size_t>(face_size);
+  for (std::size_t first = 0; first < face_vertices.size(); first += size) {
+    for (std::size_t k = 0; k < size; ++k) {
+      const Index a = face_vertices[first + k];
+      const Index b = face_vertices[first + (k + 1 == size ? 0 : k + 1)];
+      if (std::isnan(field[a]) && !std::isnan(field[b])) neighbours.emplace_back(a, b);
+      if (std::isnan(field[b]) && !std::isnan(field[a])) neighbours.emplace_back(b, a);
+    }
+  }
+  std::sort(neighbours.begin(), neighbours.end());
+  neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+  for (std::size_t begin = 0; begin < neighbours.size();) {
+    std::size_t end = begin;
+    double sum = 0.0;
+    for (; end < neighbours.size() && neighbours[end].first == neighbours[begin].first; ++end) {
+      sum += field[neighbours[end].second];
+    }
+    field[neighbours[begin].first] = sum / static_cast<double>(end - begin);
+    begin = end;
+  }
+}
+
+}  // namespace batten

@@ -1,0 +1,17 @@
+/// \file Where the vertices of a tessellation lie on the surface, and how sharp it is there.
+#pragma once
+#include "batten/patch/surface_place.h"
+#include "batten/tessellate/tessellator.h"
+
+namespace batten {
+
+/// The place of each vertex in a face of Tessellator::base(): a base vertex in the face where its fan of half-edges
+/// starts, a vertex inside an edge in the face of the edge's lower half-edge. One without a face has face -1. O(V').
+Buffer<SurfacePlace> vertex_places(const Tessellator& tessellator);
+
+/// Sharpness as a field to be drawn: vertex_sharpnesses() at the vertices of the control mesh, the creases' own along
+/// them, and zero off them from a quarter of a face on, linear between. topology: of the control mesh. V' numbers,
+/// O(V').
+Scalars sharpness_field(const Topology& topology, const Tessellator& tessellator);
+
+}  // namespace batten
