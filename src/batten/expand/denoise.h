@@ -41,4 +41,8 @@ struct DenoiseResult {
 DenoiseResult denoise(const Mesh& mesh, const Scheme& scheme, const DenoiseOptions& options = {},
                       const Progress& progress = {});
 
+/// The same where the topology is there already. points: V-by-3. Throws Error(BadShape) too.
+DenoiseResult denoise(const Topology& topology, const Scheme& scheme, ConstValuesRef points,
+                      const DenoiseOptions& options = {}, const Progress& progress = {});
+
 }  // namespace batten
