@@ -34,10 +34,10 @@ std::string bound_text(double reached, double asked, const std::string& unit) {
 
 void draw_result(const SubdivideArguments& arguments, const Mesh& before, const Mesh& after) {
   Subject subject;
-  subject.control = after;
+  subject.control = &after;
   subject.flat = true;
   subject.draw_control = true;
-  subject.before = before;
+  subject.before = &before;
   subject.before_caption = "the mesh given";
   subject.after_caption = size_text(after);
   draw(subject, arguments.picture, arguments.common.quiet);

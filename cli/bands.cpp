@@ -6,8 +6,10 @@
 #include "batten/error.h"
 #include "batten/expand/bands.h"
 #include "batten/expand/point_series.h"
+#include "batten/mesh/moved_mesh.h"
 #include "cli/expand.h"
 #include "cli/job.h"
+#include "cli/plots.h"
 
 namespace batten::cli {
 namespace {

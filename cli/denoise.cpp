@@ -3,6 +3,7 @@
 
 #include "batten/error.h"
 #include "batten/expand/strength.h"
+#include "batten/mesh/moved_mesh.h"
 #include "cli/expand.h"
 #include "cli/job.h"
 
@@ -92,7 +93,9 @@ int run_denoise(const DenoiseArguments& arguments) {
   const Scheme scheme = scheme_for(common, mesh);
   DenoiseOptions options = arguments.options;
   if (arguments.strength) options.passes = passes_for(scheme.kind, options.matrix, options.m, *arguments.strength);
-  const DenoiseResult result = denoise(mesh, scheme, options, ProgressBar("smoothing", common.quiet).callback());
+  const Topology topology = job.connect();
+  const DenoiseResult result =
+      denoise(topology, scheme, mesh.points, options, ProgressBar("smoothing", common.quiet).callback());
   job.stages.finish("smooth");
   const Mesh smooth = with_points(mesh, result.points);
   job.write(smooth);
@@ -100,7 +103,6 @@ int run_denoise(const DenoiseArguments& arguments) {
     draw_moved(mesh, smooth, arguments.picture, "denoised", common.quiet);
     job.stages.finish("picture");
   }
-  const Topology topology(mesh);
   const double diagonal = bounding_diagonal(mesh.points);
   print_table(arguments, topology, scheme, result, diagonal, job);
   job.report(report_json(arguments, topology, scheme, result, diagonal));

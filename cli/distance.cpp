@@ -3,69 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "batten/error.h"
 #include "batten/io/io.h"
-#include "batten/nearest/surface_side.h"
-#include "batten/parallel/parallel.h"
-#include "cli/distance_summary.h"
+#include "batten/nearest/distance_summary.h"
+#include "batten/nearest/surface_distances.h"
+#include "cli/histogram.h"
 #include "cli/job.h"
 #include "cli/picture.h"
 
 namespace batten::cli {
 namespace {
 
-/// What was measured.
-struct Measured {
-  std::vector<NearestPoint> nearest;
-  Scalars distances;  ///< negative inside of a closed surface
-  bool closed = false;
-  double diagonal = 0.0;   ///< of the surface
-  double tolerance = 0.0;  ///< of each distance
-};
-
-Measured measure(const Topology& topology, const Scheme& scheme, const Mesh& control, const Points& points,
-                 bool quiet) {
-  ProgressBar building("building", quiet);
-  const NearestPoints nearest(topology, scheme, control.points, building.callback());
-  Measured measured;
-  measured.diagonal = nearest.diagonal();
-  measured.tolerance = nearest.tolerance();
-  measured.nearest.resize(static_cast<std::size_t>(points.rows()));
-  ProgressBar measuring("measuring", quiet);
-  nearest.nearest(points, measured.nearest, measuring.callback());
-  measured.closed = encloses_space(topology);
-  const LimitSurface surface(topology, scheme, control.points);
-  measured.distances.resize(points.rows());
-  parallel_for(points.rows(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    for (std::ptrdiff_t i = begin; i < end; ++i) {
-      const NearestPoint& found = measured.nearest[static_cast<std::size_t>(i)];
-      const bool apart = found.distance > measured.tolerance;  // else the point is on the surface
-      const bool inside =
-          measured.closed && apart && side_of(surface, points.row(i).transpose(), found) == SurfaceSide::Inside;
-      measured.distances[i] = inside ? -found.distance : found.distance;
-    }
-  });
-  return measured;
-}
-
-/// The points that are farthest away, the farthest first.
-std::vector<Index> farthest(const Scalars& distances, std::size_t most) {
-  std::vector<Index> points(static_cast<std::size_t>(distances.size()));
-  std::iota(points.begin(), points.end(), 0);
-  most = std::min(most, points.size());
-  const auto farther = [&](Index a, Index b) {
-    const double x = std::abs(distances[a]);
-    const double y = std::abs(distances[b]);
-    return x != y ? x > y : a < b;
-  };
-  std::partial_sort(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(most), points.end(), farther);
-  points.resize(most);
-  return points;
-}
-
-nlohmann::ordered_json points_json(const Measured& measured, const std::vector<Index>& points) {
+nlohmann::ordered_json points_json(const SurfaceDistances& measured, const std::vector<Index>& points) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const Index i : points) {
     const NearestPoint& found = measured.nearest[static_cast<std::size_t>(i)];
@@ -79,7 +29,7 @@ nlohmann::ordered_json points_json(const Measured& measured, const std::vector<I
   return json;
 }
 
-nlohmann::ordered_json report_json(const DistanceArguments& arguments, const Measured& measured,
+nlohmann::ordered_json report_json(const DistanceArguments& arguments, const SurfaceDistances& measured,
                                    const DistanceSummary& summary, const Histogram& histogram, const Scheme& scheme) {
   return {{"scan", arguments.scan},
           {"surface", arguments.common.input},
@@ -98,43 +48,30 @@ nlohmann::ordered_json report_json(const DistanceArguments& arguments, const Mea
           {"max_inside", summary.most_inside},
           {"points_inside", summary.inside_count},
           {"histogram", histogram_json(histogram)},
-          {"farthest", points_json(measured, farthest(measured.distances, 10))}};
-}
-
-/// At most so many: half of them the farthest, the others spread over all. In ascending order.
-std::vector<Index> drawn_points(const Scalars& distances, Index most) {
-  const auto count = static_cast<Index>(distances.size());
-  std::vector<Index> drawn(static_cast<std::size_t>(count));
-  std::iota(drawn.begin(), drawn.end(), 0);
-  if (count <= most) return drawn;
-  drawn = farthest(distances, static_cast<std::size_t>(most / 2));
-  const double stride = 2.0 * count / most;
-  for (Index i = 0; i < most / 2; ++i) drawn.push_back(static_cast<Index>(stride * i));
-  std::sort(drawn.begin(), drawn.end());
-  drawn.erase(std::unique(drawn.begin(), drawn.end()), drawn.end());
-  return drawn;
+          {"farthest", points_json(measured, farthest_points(measured.distances, 10))}};
 }
 
 /// A scan with faces shows the distances itself; points are drawn where they meet the surface, so that those inside
 /// are seen too.
-void draw_distances(const DistanceArguments& arguments, const Mesh& scan, const Mesh& control, const Scheme& scheme,
-                    const Measured& measured) {
+void draw_distances(const DistanceArguments& arguments, const Mesh& scan, const Mesh& control, const Topology& topology,
+                    const Scheme& scheme, const SurfaceDistances& measured) {
   constexpr Index kMostMarkers = 20000;
   Subject subject;
-  subject.before = control;
+  subject.before = &control;
   subject.before_caption = "the control mesh";
   subject.after_caption = "the distances";
   subject.numbers_scale.title = measured.closed ? "distance, inside < 0" : "distance";
   subject.numbers_scale.unit = "in the mesh's unit";
   subject.numbers_scale.map = measured.closed ? ColorMap::Diverging : ColorMap::Sequential;
   if (scan.face_count() > 0) {
-    subject.control = scan;
+    subject.control = &scan;
     subject.flat = true;
     subject.numbers = measured.distances;
   } else {
-    subject.control = control;
+    subject.control = &control;
+    subject.topology = topology;
     subject.scheme = scheme;
-    const std::vector<Index> drawn = drawn_points(measured.distances, kMostMarkers);
+    const std::vector<Index> drawn = sample_points(measured.distances, kMostMarkers);
     subject.numbers = measured.distances(drawn);
     subject.markers.resize(subject.numbers.size(), 3);
     for (Eigen::Index i = 0; i < subject.markers.rows(); ++i) {
@@ -148,14 +85,14 @@ void draw_distances(const DistanceArguments& arguments, const Mesh& scan, const 
   draw(subject, arguments.picture, arguments.common.quiet);
 }
 
-void write_distances(const CommonArguments& common, Mesh scan, const Scalars& distances) {
+void write_distances(const CommonArguments& common, Mesh& scan, const Scalars& distances) {
   if (common.output.empty()) return;
   std::erase_if(scan.attributes, [](const Attribute& attribute) { return attribute.name == "distance"; });
   scan.attributes.push_back({"distance", distances, {}});
   write_output(common, scan);
 }
 
-void print_table(const Topology& topology, const Scheme& scheme, const Measured& measured,
+void print_table(const Topology& topology, const Scheme& scheme, const SurfaceDistances& measured,
                  const DistanceSummary& summary, const Histogram& histogram, const Job& job) {
   Table table;
   const auto part = [&](double distance) { return measured.diagonal > 0.0 ? distance / measured.diagonal : 0.0; };
@@ -186,7 +123,7 @@ int run_distance(const DistanceArguments& arguments) {
   const CommonArguments& common = arguments.common;
   Job job("distance", common);
   const Mesh& control = job.mesh;
-  const Mesh scan = read_mesh(arguments.scan, "", ProgressBar("reading", common.quiet).callback());
+  Mesh scan = read_mesh(arguments.scan, "", ProgressBar("reading", common.quiet).callback());
   if (scan.vertex_count() == 0)
     throw Error(ErrorCode::BadArgument, arguments.scan + ": there are no points to measure");
   job.stages.finish("read scan");
@@ -197,14 +134,15 @@ int run_distance(const DistanceArguments& arguments) {
   }
   const Topology topology = job.connect();
   const Scheme scheme = scheme_for(common, control);
-  const Measured measured = measure(topology, scheme, control, scan.points, common.quiet);
-  const DistanceSummary summary = summarize(measured.distances);
+  const SurfaceDistances measured = measure_distances(topology, scheme, control.points, scan.points,
+                                                      ProgressBar("measuring", common.quiet).callback());
+  const DistanceSummary summary = summarize_distances(measured.distances);
   const Histogram histogram = histogram_of(measured.distances);
   job.stages.finish("measure");
   write_distances(common, scan, measured.distances);
   job.stages.finish("write");
   if (!arguments.picture.path.empty()) {
-    draw_distances(arguments, scan, control, scheme, measured);
+    draw_distances(arguments, scan, control, topology, scheme, measured);
     job.stages.finish("picture");
   }
   print_table(topology, scheme, measured, summary, histogram, job);

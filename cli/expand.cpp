@@ -1,9 +1,8 @@
 #include "cli/expand.h"
 
 #include "batten/error.h"
-#include "batten/parallel/parallel.h"
-#include "cli/common.h"
 #include "cli/picture.h"
+#include "cli/text.h"
 
 namespace batten::cli {
 
@@ -12,26 +11,6 @@ void require_faces(const CommonArguments& common, const Mesh& mesh) {
   throw Error(
       ErrorCode::BadArgument,
       common.input + ": there are no faces, only points; smooth and rough are told by neighbours, which faces have");
-}
-
-Mesh with_points(const Mesh& mesh, const Points& points) {
-  Mesh moved = mesh;
-  moved.points = points;
-  std::erase_if(moved.attributes, [](const Attribute& attribute) { return attribute.name == "normal"; });
-  return moved;
-}
-
-double mean_edge_length(const Topology& topology, ConstValuesRef points) {
-  const auto lengths = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    double sum = 0.0;
-    for (auto e = static_cast<Index>(begin); e < end; ++e) {
-      const Index h = topology.edge_half_edge(e);
-      sum += (points.row(topology.origin(h)) - points.row(topology.destination(h))).norm();
-    }
-    return sum;
-  };
-  const double sum = parallel_reduce(topology.edge_count(), 0.0, lengths, [](double a, double b) { return a + b; });
-  return topology.edge_count() > 0 ? sum / topology.edge_count() : 0.0;
 }
 
 const char* weights_word(SeriesMatrix matrix) { return matrix == SeriesMatrix::Limit ? "limit" : "cotangent"; }
@@ -43,9 +22,9 @@ std::string weights_text(const Scheme& scheme, SeriesMatrix matrix) {
 void draw_moved(const Mesh& before, const Mesh& after, const PictureArguments& picture, const std::string& caption,
                 bool quiet) {
   Subject subject;
-  subject.control = after;
+  subject.control = &after;
   subject.flat = true;
-  subject.before = before;
+  subject.before = &before;
   subject.before_caption = "the mesh given";
   subject.after_caption = caption;
   PictureArguments arguments = picture;

@@ -4,7 +4,11 @@
 #include "batten/mesh/places.h"
 #include "batten/mesh/summary.h"
 #include "batten/parallel/parallel.h"
-#include "cli/common.h"
+#include "cli/input_output.h"
+#include "cli/progress.h"
+#include "cli/report.h"
+#include "cli/table.h"
+#include "cli/text.h"
 
 namespace batten::cli {
 namespace {

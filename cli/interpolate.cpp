@@ -7,9 +7,12 @@
 #include "batten/error.h"
 #include "batten/interpolate/interpolated_mesh.h"
 #include "batten/io/io.h"
+#include "batten/mesh/vertex_fields.h"
 #include "batten/tessellate/surface_mesh.h"
+#include "cli/compare.h"
 #include "cli/job.h"
 #include "cli/picture.h"
+#include "cli/plots.h"
 
 namespace batten::cli {
 namespace {
@@ -200,14 +203,15 @@ nlohmann::ordered_json report_json(const InterpolateArguments& arguments, const 
 /// The surface with the points that it passes through and its control mesh; colours speak for themselves.
 Subject subject_of(const Mesh& given, const InterpolatedMesh& result, const PictureArguments& picture) {
   Subject subject;
-  subject.control = result.mesh;
+  subject.control = &result.mesh;
+  subject.topology = result.topology;
   subject.scheme = result.scheme;
-  subject.targets = given.points;
+  subject.targets = &given.points;
   if (picture.coloring == Coloring::None) {
     subject.markers = given.points;
     subject.draw_control = true;
   }
-  subject.before = given;
+  subject.before = &given;
   subject.before_caption = "the mesh given";
   subject.after_caption = "the surface through its points";
   return subject;
@@ -261,7 +265,8 @@ std::vector<MethodResult> compare_and_plot(const InterpolateArguments& arguments
   const double tolerance = arguments.options.tolerance * report.diagonal;
   std::vector<MethodResult> methods;
   if (arguments.compare_methods) {
-    methods = compare_methods(topology, scheme, arguments.options, targets, arguments.common.quiet);
+    ProgressBar bar("comparing", arguments.common.quiet);
+    methods = compare_methods(topology, scheme, arguments.options, targets, bar.callback());
     job.stages.finish("compare");
   }
   if (arguments.plot.empty()) return methods;

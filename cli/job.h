@@ -1,7 +1,11 @@
 /// \file What verbs do alike, from the input to the report.
 #pragma once
 #include "batten/parallel/threads.h"
-#include "cli/common.h"
+#include "cli/input_output.h"
+#include "cli/progress.h"
+#include "cli/report.h"
+#include "cli/table.h"
+#include "cli/text.h"
 
 namespace batten::cli {
 

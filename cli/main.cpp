@@ -73,6 +73,8 @@ const char* hint(ErrorCode code) {
     case ErrorCode::InconsistentFaces:
     case ErrorCode::NonOrientable:
       return " (or let --repair do it)";
+    case ErrorCode::NotTriangles:
+      return " (--triangulate splits all faces)";
     default:
       return "";
   }

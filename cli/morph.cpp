@@ -7,7 +7,8 @@
 #include "batten/expand/resample.h"
 #include "batten/io/animation.h"
 #include "batten/io/io.h"
-#include "batten/parallel/parallel.h"
+#include "batten/mesh/moved_mesh.h"
+#include "batten/tessellate/surface_mesh.h"
 #include "cli/job.h"
 #include "cli/picture.h"
 
@@ -96,20 +97,11 @@ std::vector<Frame> sequence_frames(const Run& run, const MeshSeries& series, con
   return frames;
 }
 
-Mesh mesh_at(const Run& run, const Frame& frame) {
-  Mesh mesh = run.mesh;
-  mesh.points = frame.points;
-  // Normals were the first shape's.
-  auto& all = mesh.attributes;
-  all.erase(std::remove_if(all.begin(), all.end(), [](const Attribute& a) { return a.name == "normal"; }), all.end());
-  return mesh;
-}
-
 void write_frames(const Run& run, const std::vector<Frame>& frames) {
   CommonArguments common = run.arguments.common;
   for (std::size_t i = 0; i < frames.size() && !run.arguments.common.output.empty(); ++i) {
     if (!run.arguments.at) common.output = numbered(run.arguments.common.output, i);
-    write_output(common, mesh_at(run, frames[i]));
+    write_output(common, with_points(run.mesh, frames[i].points));
   }
 }
 
@@ -127,11 +119,15 @@ void write_animated(const Run& run, const Morph& morph) {
 void draw_frames(const Run& run, const std::vector<Frame>& frames) {
   constexpr std::size_t kPanels = 6;
   std::vector<Subject> subjects;
+  std::vector<Mesh> shapes;
+  shapes.reserve(kPanels);
   const std::size_t panels = std::min(frames.size(), kPanels);
   for (std::size_t i = 0; i < panels; ++i) {
     const Frame& frame = frames[panels > 1 ? i * (frames.size() - 1) / (panels - 1) : 0];
     Subject subject;
-    subject.control = mesh_at(run, frame);
+    shapes.push_back(with_points(run.mesh, frame.points));
+    subject.control = &shapes.back();
+    subject.topology = run.topology;
     subject.scheme = run.scheme;
     subject.after_caption = fmt::format("{:.2g}", frame.time);
     subjects.push_back(std::move(subject));

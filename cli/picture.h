@@ -7,28 +7,30 @@
 
 namespace batten::cli {
 
-/// What a verb has to show.
+/// What a verb has to show. The meshes and the targets must outlive the drawing.
 struct Subject {
-  Mesh control;  ///< the control mesh, or what is drawn as it is; its colours at the vertices are drawn too
+  const Mesh* control = nullptr;     ///< the control mesh, or what is drawn as it is; with its colours at the vertices
+  std::optional<Topology> topology;  ///< of `control`, where the verb has it
   Scheme scheme;
   int levels = -1;            ///< refinement before the limit positions; -1: as many as make the picture smooth
   bool flat = false;          ///< as it is, not its surface
   bool draw_control = false;  ///< as lines
   Points markers = Points(0, 3);
-  double marker_radius = 0.0;     ///< in the mesh's unit; 0: the renderer's choice
-  std::optional<Points> targets;  ///< of the vertices, for Coloring::Error
-  Scalars numbers;                ///< instead of a Coloring: one a marker, or one a vertex where there is no marker
+  double marker_radius = 0.0;       ///< in the mesh's unit; 0: the renderer's choice
+  const Points* targets = nullptr;  ///< of the vertices, for Coloring::Error
+  Scalars numbers;                  ///< instead of a Coloring: one a marker, or one a vertex where there is no marker
   ScaleRequest numbers_scale;
-  Mesh before;  ///< as it is, for the left panel
+  const Mesh* before = nullptr;  ///< as it is, for the left panel
   std::string before_caption;
   std::string after_caption;
 };
 
-/// Levels that make some 400,000 faces, but at most 5.
-int picture_levels(const Topology& topology);
-
 /// Draws and writes. Throws what the operators throw, and Error(NotAvailable) in a build without pictures.
 void draw(const Subject& subject, const PictureArguments& arguments, bool quiet);
+
+/// The share of numbers that may lie beyond a colour bar: curvature has no bound at extraordinary points, and a few
+/// numbers must not take the whole bar.
+inline constexpr double kWildShare = 0.02;
 
 /// The request that --color mean makes.
 ScaleRequest mean_curvature_scale();

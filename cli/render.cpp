@@ -1,5 +1,6 @@
 #include "batten/io/io.h"
 #include "batten/limit/limit_matrix.h"
+#include "batten/tessellate/surface_mesh.h"
 #include "cli/job.h"
 #include "cli/picture.h"
 
@@ -10,16 +11,21 @@ int run_render(const RenderArguments& arguments) {
   Job job("render", common);
   const Mesh& mesh = job.mesh;
   Subject subject;
-  subject.control = mesh;
-  subject.before = arguments.picture.before_after ? mesh : Mesh();
+  subject.control = &mesh;
+  subject.before = &mesh;
   subject.before_caption = "the mesh as it is";
   subject.after_caption = "its surface";
   subject.flat = arguments.flat || mesh.face_count() == 0;
   subject.draw_control = arguments.control;
-  if (!arguments.targets.empty()) subject.targets = read_mesh(arguments.targets).points;
+  Mesh targets;
+  if (!arguments.targets.empty()) {
+    targets = read_mesh(arguments.targets);
+    subject.targets = &targets.points;
+  }
   std::string shown = "as it is";
   if (!subject.flat) {
     const Topology topology = job.connect();
+    subject.topology = topology;
     subject.scheme = scheme_for(common, mesh);
     subject.levels = arguments.levels >= 0 ? arguments.levels : picture_levels(topology);
     if (arguments.points) subject.markers = LimitMatrix(topology, subject.scheme).apply(mesh.points);

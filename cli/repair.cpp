@@ -2,7 +2,11 @@
 
 #include "batten/io/io.h"
 #include "batten/parallel/parallel.h"
-#include "cli/common.h"
+#include "cli/input_output.h"
+#include "cli/progress.h"
+#include "cli/report.h"
+#include "cli/table.h"
+#include "cli/text.h"
 
 namespace batten::cli {
 

@@ -1,6 +1,7 @@
 /// Detail made stronger.
 #include <fmt/format.h>
 
+#include "batten/mesh/moved_mesh.h"
 #include "cli/expand.h"
 #include "cli/job.h"
 

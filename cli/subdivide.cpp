@@ -21,9 +21,9 @@ int run_subdivide(const SubdivideArguments& arguments) {
   job.write(refined);
   if (!arguments.picture.path.empty()) {
     Subject subject;
-    subject.control = refined;
+    subject.control = &refined;
     subject.flat = true;
-    subject.before = mesh;
+    subject.before = &mesh;
     subject.before_caption = "the mesh given";
     subject.after_caption = "refined " + (levels == 1 ? "once" : std::to_string(levels) + " times");
     draw(subject, arguments.picture, common.quiet);

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "batten/error.h"
-#include "batten/refine/refinement.h"
+#include "batten/tessellate/surface_mesh.h"
 #include "cli/job.h"
 #include "cli/picture.h"
 
@@ -47,18 +47,20 @@ Mesh textured(const Canvas& canvas, const Texture& texture, bool quiet) {
 
 Subject subject_of(const Canvas& canvas, const Mesh& colored) {
   Subject subject;
-  subject.control = colored;
+  subject.control = &colored;
   subject.flat = true;
-  subject.before = canvas.mesh;
+  subject.before = &canvas.mesh;
   subject.before_caption = "the mesh given";
   return subject;
 }
 
 void draw_gallery(const TextureArguments& arguments, const Canvas& canvas) {
   std::vector<Subject> subjects;
+  std::vector<Mesh> surfaces;
+  surfaces.reserve(std::size(kTexturePresets));
   for (const auto& named : kTexturePresets) {
-    subjects.push_back(
-        subject_of(canvas, textured(canvas, preset_texture(named.first, arguments.noise), arguments.common.quiet)));
+    surfaces.push_back(textured(canvas, preset_texture(named.first, arguments.noise), arguments.common.quiet));
+    subjects.push_back(subject_of(canvas, surfaces.back()));
     subjects.back().after_caption = named.second;
   }
   PictureArguments picture = arguments.picture;

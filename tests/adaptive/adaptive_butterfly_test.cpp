@@ -143,7 +143,7 @@ TEST(AdaptiveButterfly, RefusesWhatItHasNot) {
   };
   AdaptiveOptions chord;
   chord.chord = 0.01;
-  EXPECT_NE(message(chord).find("--edge-length"), std::string::npos);
+  EXPECT_NE(message(chord).find("edge length"), std::string::npos);
   AdaptiveOptions quads;
   quads.angle = 10.0;
   quads.faces = FaceKind::Quads;

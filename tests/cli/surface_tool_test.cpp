@@ -67,7 +67,7 @@ TEST_F(Tool, AdaptiveButterflyMeetsAnAngle) {
   EXPECT_EQ(report.at("chord").at("measured"), nullptr);
   const Outcome chord = run(command + "--chord 1% -o other.ply");
   EXPECT_EQ(chord.status, 1);
-  EXPECT_NE(chord.err.find("--edge-length"), std::string::npos) << chord.err;
+  EXPECT_NE(chord.err.find("take an edge length or an angle"), std::string::npos) << chord.err;
 }
 
 TEST_F(Tool, ButterflyAsksForTriangles) {
@@ -116,6 +116,26 @@ TEST_F(Tool, ComparesSurfacesWhereOneTakesAlpha) {
   }
   EXPECT_LT(compared[3]["max_error"].get<double>(), 1e-10);
   EXPECT_TRUE(fs::exists(path("p.png")));
+}
+
+TEST_F(Tool, ComparesSurfacesWhoseSquaresDoublesCannotHold) {
+  const std::string faces = "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  write("large.obj", "v 1e200 0 -7e199\nv -1e200 0 -7e199\nv 0 1e200 7e199\nv 0 -1e200 7e199\n" + faces);
+  write("unit.obj", "v 1 0 -0.7\nv -1 0 -0.7\nv 0 1 0.7\nv 0 -1 0.7\n" + faces);
+  std::vector<nlohmann::json> reports;
+  for (const std::string name : {"large", "unit"}) {
+    const Outcome schemes = run("subdivide " + name + ".obj --compare --levels 2 --report r.json");
+    EXPECT_EQ(schemes.status, 0) << schemes.err;
+    EXPECT_EQ(schemes.out.find("nan"), std::string::npos) << schemes.out;
+    reports.push_back(nlohmann::json::parse(text_of(path("r.json")))["compared"]);
+    const Outcome methods = run("interpolate " + name + ".obj --compare-methods");
+    EXPECT_EQ(methods.out.find("nan"), std::string::npos) << methods.out;
+  }
+  for (std::size_t i = 0; i < reports[1].size(); ++i) {
+    const double bending = reports[1][i]["bending"].get<double>();
+    EXPECT_NEAR(reports[0][i]["bending"].get<double>(), bending, 1e-9 * bending) << i;
+    EXPECT_NEAR(reports[0][i]["variation"].get<double>() / reports[1][i]["variation"].get<double>(), 1.0, 1e-9) << i;
+  }
 }
 
 TEST_F(Tool, ComparesTrianglesOnlyAndWritesNoMesh) {

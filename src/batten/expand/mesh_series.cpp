@@ -72,7 +72,7 @@ const Scheme& require_approximating(const Scheme& scheme) {
   if (is_interpolating(scheme.kind)) {
     throw Error(ErrorCode::BadArgument,
                 "the Butterfly schemes pass through their control points, so their limit matrix smooths nothing; take "
-                "Loop (--scheme loop)");
+                "Loop");
   }
   return scheme;
 }

@@ -30,7 +30,7 @@ void require_uniform_creases(const std::string& name, const Mesh& mesh) {
   });
   if (!fades) return;
   throw Error(ErrorCode::BadArgument,
-              name + ": USD has no Chaikin creases, and this surface depends on them; take --creases uniform, or obj");
+              name + ": USD has no Chaikin creases, and this surface depends on them; take uniform creases, or obj");
 }
 
 class UsdaMesh {

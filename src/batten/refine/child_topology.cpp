@@ -187,10 +187,9 @@ void require_triangles(const Topology& topology, const Scheme& scheme) {
   if (any_face || topology.uniform_face_size() == 3 || topology.face_count() == 0) return;
   Index f = 0;
   while (topology.face_size(f) == 3) ++f;
-  throw Error(ErrorCode::NotTriangles, std::string(scheme_name(scheme.kind)) +
-                                           " subdivision needs triangles, but face " + std::to_string(f) + " has " +
-                                           std::to_string(topology.face_size(f)) +
-                                           " corners; triangulate (--triangulate) or take Catmull-Clark");
+  throw Error(ErrorCode::NotTriangles,
+              std::string(scheme_name(scheme.kind)) + " subdivision needs triangles, but face " + std::to_string(f) +
+                  " has " + std::to_string(topology.face_size(f)) + " corners; triangulate it or take Catmull-Clark");
 }
 
 Topology child_topology(const Topology& parent, const Scheme& scheme, const Progress& progress) {

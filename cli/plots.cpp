@@ -1,10 +1,9 @@
-/// What an iteration did, as a plot.
+#include "cli/plots.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "batten/error.h"
-#include "cli/common.h"
-#include "cli/expand.h"
 #ifdef BATTEN_WITH_RENDER
 #include "batten/render/plot.h"
 #endif

@@ -1,0 +1,56 @@
+#include "cli/input_output.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "batten/io/io.h"
+#include "batten/mesh/triangulate.h"
+#include "batten/refine/refinement.h"
+#include "cli/progress.h"
+#include "cli/report.h"
+#include "cli/table.h"
+
+namespace batten::cli {
+
+Mesh read_input(const CommonArguments& arguments, nlohmann::ordered_json* repairs) {
+  Mesh mesh = read_mesh(arguments.input, arguments.input_format, ProgressBar("reading", arguments.quiet).callback());
+  if (arguments.repair) {
+    RepairResult repaired = repair(mesh, {}, ProgressBar("repairing", arguments.quiet).callback());
+    Table table;
+    add_changes(table, "repaired", repaired.changes);
+    table.print(arguments);
+    if (repairs != nullptr) *repairs = repairs_json(repaired);
+    mesh = std::move(repaired.mesh);
+  }
+  if (arguments.triangulate) mesh = triangulated(mesh);
+  return mesh;
+}
+
+void write_output(const CommonArguments& arguments, const Mesh& mesh) {
+  if (arguments.output.empty()) return;
+  ProgressBar bar("writing", arguments.quiet);
+  write_mesh(arguments.output, mesh, {arguments.output_format, !arguments.ascii}, bar.callback());
+}
+
+Scheme scheme_for(const CommonArguments& arguments, const Mesh& mesh) {
+  Scheme scheme = choose_scheme(mesh);
+  scheme.kind = arguments.scheme.value_or(scheme.kind);
+  scheme.boundary = arguments.boundary.value_or(scheme.boundary);
+  scheme.crease_method = arguments.crease_method.value_or(scheme.crease_method);
+  scheme.triangle_rule = arguments.triangle_rule.value_or(scheme.triangle_rule);
+  scheme.alpha = arguments.alpha;
+  scheme.tension = arguments.tension;
+  scheme.butterfly_boundary = arguments.butterfly_boundary.value_or(scheme.butterfly_boundary);
+  return scheme;
+}
+
+std::string numbered(const std::string& path, std::size_t number) {
+  const std::size_t dot = path.find_last_of('.');
+  const std::size_t slash = path.find_last_of('/');
+  const bool has_type = dot != std::string::npos && (slash == std::string::npos || dot > slash);
+  const std::string digits = std::to_string(number);
+  const std::string part = "-" + std::string(3 - std::min<std::size_t>(3, digits.size()), '0') + digits;
+  return has_type ? path.substr(0, dot) + part + path.substr(dot) : path + part;
+}
+
+}  // namespace batten::cli

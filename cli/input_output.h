@@ -1,0 +1,20 @@
+/// \file Meshes in and out, as the options that all verbs share ask for.
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "cli/arguments.h"
+
+namespace batten::cli {
+
+/// The file's mesh with --repair and --triangulate applied. What --repair changed is printed at once, and told to
+/// `repairs` (left null without --repair) for the report.
+Mesh read_input(const CommonArguments& arguments, nlohmann::ordered_json* repairs = nullptr);
+/// Nothing without an output.
+void write_output(const CommonArguments& arguments, const Mesh& mesh);
+/// The mesh's own scheme, overruled by the options.
+Scheme scheme_for(const CommonArguments& arguments, const Mesh& mesh);
+/// name.png becomes name-007.png.
+std::string numbered(const std::string& path, std::size_t number);
+
+}  // namespace batten::cli

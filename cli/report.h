@@ -1,0 +1,19 @@
+/// \file What --report writes.
+#pragma once
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "batten/mesh/repair.h"
+#include "batten/scheme/scheme.h"
+
+namespace batten::cli {
+
+/// To the path, at once or not at all; nothing for an empty path.
+void write_json(const std::string& path, const nlohmann::ordered_json& json);
+nlohmann::ordered_json repairs_json(const RepairResult& repaired);
+nlohmann::ordered_json scheme_json(const Scheme& scheme);
+/// The most memory this process has held, in bytes; 0 where the system does not tell.
+std::int64_t peak_memory_bytes();
+
+}  // namespace batten::cli

@@ -1,0 +1,23 @@
+#include "cli/table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace batten::cli {
+
+void Table::print(const CommonArguments& arguments) const {
+  if (arguments.quiet) return;
+  std::FILE* out = arguments.output == "-" ? stderr : stdout;
+  std::size_t width = 0;
+  for (const auto& row : rows_) width = std::max(width, row.first.size());
+  for (const auto& row : rows_) fmt::print(out, "{:<{}}  {}\n", row.first, width, row.second);
+}
+
+void add_changes(Table& table, const std::string& name, const std::vector<RepairChange>& changes) {
+  if (changes.empty()) table.add(name, "nothing to repair");
+  for (const RepairChange& change : changes) table.add(&change == &changes.front() ? name : "", change.text);
+}
+
+}  // namespace batten::cli

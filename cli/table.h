@@ -1,0 +1,26 @@
+/// \file The short table that a verb prints.
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "batten/mesh/repair.h"
+#include "cli/arguments.h"
+
+namespace batten::cli {
+
+/// A short table for a person: left column names, right column facts.
+class Table {
+ public:
+  void add(const std::string& name, const std::string& fact) { rows_.emplace_back(name, fact); }
+  /// To stdout, or to stderr where the mesh itself goes to stdout.
+  void print(const CommonArguments& arguments) const;
+
+ private:
+  std::vector<std::pair<std::string, std::string>> rows_;
+};
+
+/// One row a change, the first with a name.
+void add_changes(Table& table, const std::string& name, const std::vector<RepairChange>& changes);
+
+}  // namespace batten::cli

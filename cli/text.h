@@ -1,0 +1,21 @@
+/// \file Numbers, meshes and schemes in the words of the tables.
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include "batten/mesh/topology.h"
+#include "batten/scheme/scheme.h"
+
+namespace batten::cli {
+
+/// "12,345"
+std::string grouped(std::int64_t number);
+/// "1 vertex", "12,345 vertices"
+std::string count_of(std::int64_t number, const std::string& singular, const std::string& plural);
+/// "8 vertices, 6 faces"
+std::string size_text(const Mesh& mesh);
+/// As size_text, and how many vertices have no face.
+std::string mesh_text(const Topology& topology);
+std::string scheme_text(const Scheme& scheme);
+
+}  // namespace batten::cli
