@@ -32,8 +32,10 @@ Scalars missed(const FieldSurface& surface, const Values& limit) {
   return errors;
 }
 
-Scalars curvature_field(const FieldSurface& surface, bool mean, const Tessellator& tessellator) {
-  const LimitSurface limit(surface.topology, surface.scheme, surface.control);
+Scalars curvature_field(const FieldSurface& surface, bool mean, int levels) {
+  const SurfacePatches patches(surface.topology, surface.scheme);
+  const Tessellator tessellator(patches, levels);
+  const LimitSurface limit(patches, surface.control);
   const Buffer<SurfacePlace> places = vertex_places(tessellator);
   Scalars field = Scalars::Constant(static_cast<Eigen::Index>(places.size()), std::numeric_limits<double>::quiet_NaN());
   parallel_for(field.size(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
@@ -91,8 +93,8 @@ Scalars surface_field(const FieldSurface& surface, SurfaceField field, int level
     Curvature curvature = limit_curvature(limit, surface.topology);
     return mean ? std::move(curvature.mean) : std::move(curvature.gaussian);
   }
+  if (is_curvature(field)) return curvature_field(surface, mean, levels);
   const Tessellator tessellator(surface.topology, surface.scheme, levels);
-  if (is_curvature(field)) return curvature_field(surface, mean, tessellator);
   if (field == SurfaceField::Sharpness) return sharpness_field(surface.topology, tessellator);
   return spread(surface.topology, tessellator, vertex_field(surface, field));
 }

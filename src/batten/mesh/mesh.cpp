@@ -28,9 +28,9 @@ double bounding_diagonal(ConstValuesRef points) {
       [](const Box& a, const Box& b) {
         return Box{a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)};
       });
-  const Eigen::RowVectorXd size = box.high - box.low;
-  const double diagonal = size.norm();
-  return diagonal > 0.0 && std::isfinite(diagonal) ? diagonal : size.stableNorm();  // squares have left the doubles
+  const double diagonal = (box.high - box.low).norm();
+  if (diagonal > 0.0 && std::isfinite(diagonal)) return diagonal;
+  return (box.high - box.low).stableNorm();  // where squares leave the doubles
 }
 
 bool all_triangles(const Mesh& mesh) {

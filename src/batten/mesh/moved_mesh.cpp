@@ -1,6 +1,7 @@
 #include "batten/mesh/moved_mesh.h"
 
 #include <string>
+#include <vector>
 
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
@@ -12,22 +13,9 @@ Mesh with_points(const Mesh& mesh, ConstValuesRef points) {
     throw Error(ErrorCode::BadShape, "there must be one point of three coordinates for each of the mesh's " +
                                          std::to_string(mesh.points.rows()) + " vertices");
   }
-  Mesh moved;
+  Mesh moved = mesh;
   moved.points = points;
-  moved.face_offsets = mesh.face_offsets;
-  moved.face_vertices = mesh.face_vertices;
-  moved.creases = mesh.creases;
-  moved.corners = mesh.corners;
-  moved.holes = mesh.holes;
-  for (const Attribute& attribute : mesh.attributes) {
-    if (attribute.name != "normal") moved.attributes.push_back(attribute);
-  }
-  moved.groups = mesh.groups;
-  moved.material_libraries = mesh.material_libraries;
-  moved.scheme = mesh.scheme;
-  moved.boundary = mesh.boundary;
-  moved.crease_method = mesh.crease_method;
-  moved.triangle_rule = mesh.triangle_rule;
+  std::erase_if(moved.attributes, [](const Attribute& attribute) { return attribute.name == "normal"; });
   return moved;
 }
 

@@ -8,9 +8,11 @@ namespace batten {
 
 SurfaceDistances measure_distances(const Topology& topology, const Scheme& scheme, ConstValuesRef control,
                                    ConstValuesRef points, const Progress& progress) {
-  constexpr double kBuilt = 0.3;  // of the time
+  constexpr double kCut = 0.1;  // of the time
+  constexpr double kBuilt = 0.3;
   constexpr double kFound = 0.9;
-  const NearestPoints nearest(topology, scheme, control, progress_within(progress, 0.0, kBuilt));
+  const SurfacePatches patches(topology, scheme, progress_within(progress, 0.0, kCut));
+  const NearestPoints nearest(patches, control, progress_within(progress, kCut, kBuilt));
   SurfaceDistances measured;
   measured.diagonal = nearest.diagonal();
   measured.tolerance = nearest.tolerance();
@@ -18,7 +20,7 @@ SurfaceDistances measure_distances(const Topology& topology, const Scheme& schem
   nearest.nearest(points, measured.nearest, progress_within(progress, kBuilt, kFound));
   measured.closed = encloses_space(topology);
   measured.distances.resize(points.rows());
-  const LimitSurface surface(topology, scheme, control);
+  const LimitSurface surface(patches, control);
   const auto sign_block = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (std::ptrdiff_t i = begin; i < end; ++i) {
       const NearestPoint& found = measured.nearest[static_cast<std::size_t>(i)];

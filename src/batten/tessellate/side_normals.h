@@ -8,7 +8,7 @@ namespace batten {
 /// What has one normal for each side of its creases: a tessellation of a spline surface, and its normals at the
 /// vertices as Tessellator::limit() gives them.
 struct TessellatedNormals {
-  const SurfacePatches& patches;                               ///< of Catmull-Clark or Loop
+  const SurfacePatches& patches;                              ///< of Catmull-Clark or Loop
   Eigen::Ref<const Values, 0, Eigen::OuterStride<>> control;  ///< V-by-3; not copied
   const Tessellator& tessellator;
   const Buffer<Index>& face_rank;      ///< drawn base faces before each base face, -1 for one that is not drawn
