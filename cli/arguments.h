@@ -1,4 +1,4 @@
-/// \file What the command line asked for, verb by verb, as plain data.
+/// \file The command line's options of each verb, as plain data.
 #pragma once
 #include <array>
 #include <optional>

@@ -1,4 +1,4 @@
-/// A mesh in bands, and an equaliser for them.
+/// The verb bands: splits a mesh into bands of detail and gives each its gain.
 #include <fmt/format.h>
 
 #include <cmath>

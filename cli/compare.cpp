@@ -1,4 +1,4 @@
-/// The comparison of methods as a table and in the report.
+/// Prints the comparison of methods as a table and puts it into the report.
 #include <fmt/format.h>
 
 #include "cli/compare.h"

@@ -1,4 +1,5 @@
-/// Butterfly, Modified Butterfly and the interpolated Loop and Catmull-Clark surfaces of one triangle mesh.
+/// subdivide --compare: sets Butterfly, Modified Butterfly and the interpolated Loop and Catmull-Clark surfaces of one
+/// triangle mesh side by side.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-/// Noise off a mesh.
+/// The verb denoise: removes noise from a mesh.
 #include <fmt/format.h>
 
 #include "batten/error.h"

@@ -1,4 +1,4 @@
-/// How far a scan's points lie from a limit surface.
+/// The verb distance: tells how far the points of a scan lie from a limit surface.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -78,7 +78,7 @@ void draw_distances(const DistanceArguments& arguments, const Mesh& scan, const 
       const Index point = drawn[static_cast<std::size_t>(i)];
       subject.markers.row(i) = measured.nearest[static_cast<std::size_t>(point)].point.transpose();
     }
-    // About a third of the distance between points that are spread evenly.
+    // The spheres' radius: about a third of the distance between points that are spread evenly.
     const double count = static_cast<double>(drawn.size());
     subject.marker_radius = measured.diagonal * std::min(0.25 / std::sqrt(count), 0.012);
   }

@@ -12,7 +12,7 @@ void require_faces(const CommonArguments& common, const Mesh& mesh);
 const char* weights_word(SeriesMatrix matrix);
 std::string weights_text(const Scheme& scheme, SeriesMatrix matrix);
 
-/// The mesh as it is after the vertices were moved; before it with --before-after; coloured by Coloring::Moved.
+/// Draws the mesh after its vertices were moved, coloured by how far; with --before-after beside the mesh before.
 void draw_moved(const Mesh& before, const Mesh& after, const PictureArguments& picture, const std::string& caption,
                 bool quiet);
 

@@ -18,7 +18,7 @@ std::vector<std::string> histogram_lines(const Histogram& histogram) {
   std::vector<std::string> ends;
   std::size_t longest = 0;
   for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
-    // Counted in whole widths, so that zero is zero.
+    // A bar's ends are whole multiples of the width, so that zero is printed as zero.
     const double bar = std::round(histogram.start / histogram.width) + static_cast<double>(i);
     starts.push_back(fmt::format("{:.4g}", bar * histogram.width));
     ends.push_back(fmt::format("{:.4g}", (bar + 1.0) * histogram.width));

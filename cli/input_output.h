@@ -10,7 +10,7 @@ namespace batten::cli {
 /// The file's mesh with --repair and --triangulate applied. What --repair changed is printed at once, and told to
 /// `repairs` (left null without --repair) for the report.
 Mesh read_input(const CommonArguments& arguments, nlohmann::ordered_json* repairs = nullptr);
-/// Nothing without an output.
+/// Writes to the output; does nothing without one.
 void write_output(const CommonArguments& arguments, const Mesh& mesh);
 /// The mesh's own scheme, overruled by the options.
 Scheme scheme_for(const CommonArguments& arguments, const Mesh& mesh);

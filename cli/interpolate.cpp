@@ -40,7 +40,7 @@ std::string share_text(double length, double diagonal) {
 
 Index worst_vertex(const InterpolationReport& report) { return report.worst.empty() ? -1 : report.worst.front().row; }
 
-/// What there is to say of an outcome beside the errors; empty where each point was reached.
+/// What the table says of an outcome besides the errors; empty where the surface passes through each point.
 const char* outcome_text(Outcome outcome) {
   switch (outcome) {
     case Outcome::Reached:
@@ -200,7 +200,8 @@ nlohmann::ordered_json report_json(const InterpolateArguments& arguments, const 
   return json;
 }
 
-/// The surface with the points that it passes through and its control mesh; colours speak for themselves.
+/// The surface with the points that it passes through and its control mesh; without these two where colours show
+/// numbers.
 Subject subject_of(const Mesh& given, const InterpolatedMesh& result, const PictureArguments& picture) {
   Subject subject;
   subject.control = &result.mesh;
@@ -230,7 +231,7 @@ void print_table(const Topology& topology, const Scheme& scheme, const std::vect
   job.print(table);
 }
 
-/// What was reached is written already; the exit code still has to tell.
+/// Throws where points were missed. The output is written by then; the error gives the exit code.
 void require_tolerance(const std::vector<InterpolationReport>& reports, const InterpolateOptions& options) {
   for (const InterpolationReport& report : reports) {
     if (report.converged()) continue;

@@ -11,16 +11,16 @@ namespace batten::cli {
 
 /// A verb at work on one mesh.
 struct Job {
-  /// Limits the threads and reads the input; a stage. The arguments must outlive it.
+  /// Limits the threads and reads the input; counts as a stage. The arguments must outlive it.
   Job(std::string verb_in, const CommonArguments& arguments);
 
-  /// Of the mesh; a stage.
+  /// The topology of the mesh; counts as a stage.
   Topology connect();
-  /// To the output, if there is one; a stage.
+  /// Writes a mesh to the output, if there is one; counts as a stage.
   void write(const Mesh& result);
-  /// With the time as the last row.
+  /// Prints the table with the seconds of the stages as its last row.
   void print(Table table) const;
-  /// Verb, files and repairs, then these facts, then threads and seconds.
+  /// Writes the report: verb, files and repairs, then these facts, then threads and seconds.
   void report(const nlohmann::ordered_json& facts = nlohmann::ordered_json::object()) const;
 
   std::string verb;

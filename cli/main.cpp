@@ -63,7 +63,7 @@ int run(int argc, char** argv) {
   return status;
 }
 
-/// The way out that only the tool knows.
+/// What the user can do about an error by an option of the tool.
 const char* hint(ErrorCode code) {
   switch (code) {
     case ErrorCode::DegenerateFace:
@@ -87,7 +87,7 @@ int main(int argc, char** argv) {
   batten::cli::handle_signals();
   try {
     const int status = batten::cli::run(argc, argv);
-    // What was printed may still wait in the buffer; a closed pipe or a full disk shows here.
+    // The text may still stand in the buffer; this write meets a closed pipe or a full disk.
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
     std::fprintf(stderr, "batten: standard output: cannot be written: %s\n", std::strerror(errno));
   } catch (const batten::Error& error) {

@@ -15,7 +15,7 @@
 namespace batten::cli {
 namespace {
 
-/// One shape on the way.
+/// One shape between the first and the last.
 struct Frame {
   double time;  ///< in [0, 1]; of the paper's sequence the share of its steps
   Values points;

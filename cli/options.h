@@ -29,15 +29,15 @@ void add_choice(CLI::App& verb, const std::string& name, Target& target, const N
 /// Refuses other names before any work is done.
 CLI::Validator has_extension(const std::vector<std::string>& extensions);
 void add_repair_flag(CLI::App& verb, CommonArguments& common);
-/// For what is called INPUT, unless the verb has a better word.
+/// Adds the positional argument for the input file, under the name that the help shows.
 void add_input(CLI::App& verb, CommonArguments& common, const std::string& name = "INPUT");
 void add_output(CLI::App& verb, CommonArguments& common);
 void add_surface(CLI::App& verb, CommonArguments& common);
 void add_picture_options(CLI::App& verb, PictureArguments& picture);
 void add_coloring(CLI::App& verb, PictureArguments& picture);
-/// Of the verbs whose own output is a mesh.
+/// Adds --picture and what belongs to it, for verbs whose own output is a mesh.
 void add_picture(CLI::App& verb, PictureArguments& picture);
-/// A number, or one with a per cent sign: of the diagonal.
+/// Adds an option that takes a number, or a number with a per cent sign: a share of the diagonal.
 void add_length(CLI::App& verb, const std::string& name, std::optional<Length>& target, const std::string& help);
 /// Refuses options that have no meaning beside another one.
 void require_alone(const CLI::App& verb, const std::string& name, const std::vector<std::string>& others);

@@ -69,7 +69,7 @@ void draw_shots(const std::vector<Shot>& shots, RenderOptions options, const Pan
     for (const Shot& shot : shots) {
       RenderOptions own = options;
       own.shading = shot.shading;
-      if (&shot == &shots.back()) own.width = left;  // with what the division left over
+      if (&shot == &shots.back()) own.width = left;  // the last panel takes the remainder of the division
       left -= own.width;
       const Progress part = [&](double here) { return !report || report(done + share * here); };
       panels.push_back({render(*shot.scene, own, part), shot.caption});

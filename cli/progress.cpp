@@ -32,7 +32,8 @@ std::string Stages::text() const {
   return fmt::format("{:.3f} s ({})", sum, text);
 }
 
-/// After the first half second ten times a second, whatever the stage: short stages of a long run show too.
+/// True ten times a second after the first half second, counted over the whole run: so short stages of a long run show
+/// too.
 static bool bar_is_due() {
   using Clock = std::chrono::steady_clock;
   static Clock::time_point next = Clock::now() + std::chrono::milliseconds(500);

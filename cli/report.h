@@ -9,7 +9,7 @@
 
 namespace batten::cli {
 
-/// To the path, at once or not at all; nothing for an empty path.
+/// Writes the file whole or not at all; does nothing for an empty path.
 void write_json(const std::string& path, const nlohmann::ordered_json& json);
 nlohmann::ordered_json repairs_json(const RepairResult& repaired);
 nlohmann::ordered_json scheme_json(const Scheme& scheme);

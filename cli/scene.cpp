@@ -48,7 +48,7 @@ ScaleRequest scale_request(Coloring coloring, SchemeKind kind) {
   }
 }
 
-/// What the renderer draws of a mesh.
+/// The part of a mesh that the renderer draws: points, faces and holes.
 Mesh bare(const Mesh& mesh) {
   Mesh drawn;
   drawn.points = mesh.points;
@@ -66,7 +66,7 @@ const Attribute* vertex_colors(const Mesh& mesh) {
   return nullptr;
 }
 
-/// As the light needs them; none without an attribute.
+/// The colours as linear RGB, in which light adds up; none without an attribute.
 Values linear_colors(const Attribute* colors) {
   if (colors == nullptr) return Values();
   return colors->values.leftCols(3).unaryExpr([](double value) {

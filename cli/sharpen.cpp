@@ -1,4 +1,4 @@
-/// Detail made stronger.
+/// The verb sharpen: makes detail stronger.
 #include <fmt/format.h>
 
 #include "batten/mesh/moved_mesh.h"
@@ -12,7 +12,7 @@ nlohmann::ordered_json pairs_json(const SelfIntersections& found) {
   return {{"count", found.count}, {"faces", found.faces}};
 }
 
-/// What has gone wrong, or that nothing has.
+/// The text on faces that pass through each other or fold over, or that none do.
 std::string check_text(const SharpenResult& result) {
   std::string text =
       result.after.count == 0

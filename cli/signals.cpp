@@ -17,7 +17,7 @@ void handle_signals() {
   std::signal(SIGXFSZ, SIG_IGN);
   struct sigaction stop {};
   stop.sa_handler = [](int /*signal*/) { asked = true; };
-  // Without SA_RESTART a wait for a pipe ends too, and the second signal does what it does by default.
+  // Without SA_RESTART a signal also ends a wait for a pipe; SA_RESETHAND gives the second signal its default effect.
   stop.sa_flags = static_cast<int>(SA_RESETHAND);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction before {};

@@ -7,7 +7,7 @@ namespace batten::cli {
 /// pipes and size limits become errors of the write that meets them.
 void handle_signals();
 
-/// True once a signal asked to stop. Progress bars look here: they cancel what they watch.
+/// True once a signal asked to stop. Progress bars read it and cancel the stage that they watch.
 bool stop_asked();
 
 }  // namespace batten::cli

@@ -13,14 +13,14 @@ namespace batten::cli {
 class Table {
  public:
   void add(const std::string& name, const std::string& fact) { rows_.emplace_back(name, fact); }
-  /// To stdout, or to stderr where the mesh itself goes to stdout.
+  /// Prints to stdout, or to stderr where the mesh itself goes to stdout.
   void print(const CommonArguments& arguments) const;
 
  private:
   std::vector<std::pair<std::string, std::string>> rows_;
 };
 
-/// One row a change, the first with a name.
+/// Adds a row for each change; the first has the name.
 void add_changes(Table& table, const std::string& name, const std::vector<RepairChange>& changes);
 
 }  // namespace batten::cli
