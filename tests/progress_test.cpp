@@ -9,17 +9,23 @@
 #include "batten/expand/mesh_series.h"
 #include "batten/expand/morph_surface.h"
 #include "batten/expand/resample.h"
+#include "batten/expand/scheme_comparison.h"
 #include "batten/expand/sharpen.h"
 #include "batten/expand/texture.h"
 #include "batten/interpolate/interpolated_mesh.h"
+#include "batten/interpolate/method_comparison.h"
 #include "batten/limit/limit_matrix.h"
 #include "batten/mesh/check.h"
 #include "batten/mesh/discrete_curvature.h"
 #include "batten/mesh/primitives.h"
 #include "batten/mesh/repair.h"
+#include "batten/mesh/triangulate.h"
 #include "batten/nearest/nearest_point.h"
-#include "batten/parallel/parallel.h"
+#include "batten/nearest/surface_distances.h"
 #include "batten/refine/refinement.h"
+#include "batten/surface/surface_weights.h"
+#include "batten/tessellate/surface_mesh.h"
+#include "batten/tessellate/tessellator.h"
 #include "io/io_test_tools.h"
 
 namespace batten {
@@ -59,6 +65,28 @@ std::vector<Named> operations(const io_tests::TemporaryFolder& folder) {
          static const NearestPoints nearest(topology, scheme, mesh.points);
          std::vector<NearestPoint> found(static_cast<std::size_t>(mesh.vertex_count()));
          nearest.nearest(mesh.points, found, progress);
+       }},
+      {"surface weights", [](const Progress& progress) { SurfaceWeights(topology, scheme, progress); }},
+      {"limit surface", [](const Progress& progress) { LimitSurface(topology, scheme, mesh.points, progress); }},
+      {"tessellation",
+       [](const Progress& progress) {
+         tessellate(topology, scheme, mesh.points, 3, {true, true}, progress);
+       }},
+      {"surface mesh", [](const Progress& progress) { surface_mesh(topology, scheme, mesh, 2, progress); }},
+      {"surface mesh of a Butterfly",
+       [](const Progress& progress) {
+         static const Mesh triangles = triangulated(mesh);
+         static const Topology connected(triangles);
+         surface_mesh(connected, {SchemeKind::ModifiedButterfly}, triangles, 1, progress);
+       }},
+      {"distances",
+       [](const Progress& progress) { measure_distances(topology, scheme, mesh.points, mesh.points, progress); }},
+      {"methods compared",
+       [](const Progress& progress) { compare_methods(topology, scheme, {}, mesh.points, progress); }},
+      {"schemes compared",
+       [](const Progress& progress) {
+         static const Mesh triangles = triangulated(torus(30, 20));
+         compare_schemes(Topology(triangles), scheme, triangles.points, 1, progress);
        }},
       {"discrete curvature",
        [](const Progress& progress) {
@@ -185,14 +213,6 @@ TEST(LongWork, ACallbackChangesNoBit) {
   const auto go_on = [](double /*done*/) { return true; };
   const Mesh watched = interpolate(mesh, {}, go_on).mesh;
   EXPECT_TRUE(io_tests::same_bits(watched.points, interpolate(mesh).mesh.points));
-}
-
-TEST(LongWork, OfTwoPiecesAtOnceTheFirstRunsOnTheCallersThread) {
-  for (int i = 0; i < 100; ++i) {
-    std::thread::id first;
-    parallel_both([&] { first = std::this_thread::get_id(); }, [] {});
-    ASSERT_EQ(first, std::this_thread::get_id());
-  }
 }
 
 }  // namespace

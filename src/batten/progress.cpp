@@ -1,5 +1,7 @@
 #include "batten/progress.h"
 
+#include <cmath>
+
 #include "batten/error.h"
 
 namespace batten {
@@ -10,7 +12,7 @@ void report_progress(const Progress& progress, double done) {
 
 Progress progress_within(const Progress& progress, double begin, double end) {
   if (!progress) return {};
-  return [&progress, begin, end](double done) { return progress(begin + done * (end - begin)); };
+  return [&progress, begin, end](double done) { return progress(std::lerp(begin, end, done)); };
 }
 
 }  // namespace batten

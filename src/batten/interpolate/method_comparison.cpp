@@ -37,12 +37,15 @@ MethodResult run(const ComparedMethod& compared, const Topology& topology, const
   result.name = compared.name;
   try {
     auto start = std::chrono::steady_clock::now();
-    const Interpolator interpolator(topology, scheme, options, progress_within(progress, 0.0, 0.2));
+    constexpr double kBuilt = 0.2;  // of the time
+    const Interpolator interpolator(topology, scheme, options, progress_within(progress, 0.0, kBuilt));
     result.build_seconds = seconds_since(start);
     double spent = 0.0;
     for (int runs = 0; runs < kMostRuns && spent < kEnoughSeconds; ++runs) {
       start = std::chrono::steady_clock::now();
-      Interpolant interpolant = interpolator.solve(targets, progress_within(progress, 0.2, 1.0));
+      const Progress solving = progress_within(progress, kBuilt, 1.0);
+      const double share = 1.0 / kMostRuns;
+      Interpolant interpolant = interpolator.solve(targets, progress_within(solving, share * runs, share * (runs + 1)));
       const double seconds = seconds_since(start);
       spent += seconds;
       result.solve_seconds = runs == 0 ? seconds : std::min(result.solve_seconds, seconds);

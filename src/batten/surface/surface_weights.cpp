@@ -9,6 +9,7 @@
 #include "batten/error.h"
 #include "batten/limit/vertex_limit.h"
 #include "batten/parallel/parallel.h"
+#include "batten/progress.h"
 #include "batten/patch/face_types.h"
 #include "batten/patch/halving.h"
 #include "batten/patch/spline_jet.h"
@@ -154,7 +155,9 @@ PlaceRows SurfaceWeights::Parts::make_rows(const SurfacePlace& place, std::span<
 SurfaceWeights::SurfaceWeights(const SurfacePatches& patches) : parts_(std::make_unique<Parts>(patches)) {}
 
 SurfaceWeights::SurfaceWeights(const Topology& topology, const Scheme& scheme, const Progress& progress)
-    : SurfaceWeights(SurfacePatches(topology, scheme, progress)) {}
+    : SurfaceWeights(SurfacePatches(topology, scheme, progress_within(progress, 0.0, 0.5))) {
+  report_progress(progress, 1.0);
+}
 
 SurfaceWeights::~SurfaceWeights() = default;
 SurfaceWeights::SurfaceWeights(SurfaceWeights&&) noexcept = default;

@@ -128,10 +128,11 @@ Values corners_drawn(const Buffer<Index>& face_rank, Eigen::Index per_face, cons
 }
 
 void fill_points(const SurfacePatches& patches, const Mesh& control, const Tessellator& tessellator,
-                 const DrawnFaces& faces, int levels, Mesh& mesh) {
+                 const DrawnFaces& faces, int levels, Mesh& mesh, const Progress& progress) {
+  constexpr double kFilled = 0.5;  // of the time
   mesh.points.resize(tessellator.vertex_count(), 3);
   if (is_interpolating(patches.scheme().kind)) {
-    tessellator.limit<double>(control.points, numbers_of(mesh.points));
+    tessellator.limit<double>(control.points, numbers_of(mesh.points), {}, progress_within(progress, 0.0, kFilled));
     LimitNormals normals = butterfly_grid_normals(patches.base(), patches.scheme(), mesh.points, levels);
     const Eigen::Index per_face = Eigen::Index{3} * tessellator.steps() * tessellator.steps();
     const Values at_corners = corners_drawn(faces.face_rank, per_face, normals.corners);
@@ -139,7 +140,8 @@ void fill_points(const SurfacePatches& patches, const Mesh& control, const Tesse
     return append_normals(std::move(normals.vertices), std::move(differing), mesh);
   }
   Values normals(tessellator.vertex_count(), 3);
-  tessellator.limit<double>(control.points, numbers_of(mesh.points), numbers_of(normals));
+  tessellator.limit<double>(control.points, numbers_of(mesh.points), numbers_of(normals),
+                            progress_within(progress, 0.0, kFilled));
   Attribute differing =
       side_normals({patches, control.points, tessellator, faces.face_rank, mesh.face_vertices, normals});
   append_normals(std::move(normals), std::move(differing), mesh);
@@ -156,12 +158,11 @@ Mesh surface_mesh(const Topology& topology, const Scheme& scheme, const Mesh& co
     mesh.material_libraries = control.material_libraries;
     return mesh;
   }
-  const SurfacePatches patches(topology, scheme);
-  const Tessellator tessellator(patches, levels);
-  const DrawnFaces faces = drawn_faces(patches);
   constexpr double kBuilt = 0.1;  // of the time
   constexpr double kFaces = 0.2;
-  report_progress(progress, kBuilt);
+  const SurfacePatches patches(topology, scheme, progress_within(progress, 0.0, kBuilt));
+  const Tessellator tessellator(patches, levels);
+  const DrawnFaces faces = drawn_faces(patches);
   Mesh mesh;
   mesh.material_libraries = control.material_libraries;
   mesh.face_offsets = offsets_of(static_cast<std::size_t>(tessellator.face_count()), tessellator.face_size());
@@ -174,6 +175,7 @@ Mesh surface_mesh(const Topology& topology, const Scheme& scheme, const Mesh& co
   }
   report_progress(progress, kFaces);
   const double share = (1.0 - kFaces) / static_cast<double>(control.attributes.size() + 1);
+  double done = kFaces;
   for (const Attribute& attribute : control.attributes) {
     if (is_left_out(attribute, mesh)) continue;
     if (attribute.per_corner()) {
@@ -181,11 +183,13 @@ Mesh surface_mesh(const Topology& topology, const Scheme& scheme, const Mesh& co
     } else {
       require_finite(attribute.values, ("attribute '" + attribute.name + "'").c_str());
       mesh.attributes.push_back({attribute.name, Values(tessellator.vertex_count(), attribute.values.cols()), {}});
-      tessellator.limit<double>(attribute.values, numbers_of(mesh.attributes.back().values));
+      tessellator.limit<double>(attribute.values, numbers_of(mesh.attributes.back().values), {},
+                                progress_within(progress, done, done + share));
     }
-    report_progress(progress, kFaces + share * static_cast<double>(mesh.attributes.size()));
+    done += share;
+    report_progress(progress, done);
   }
-  fill_points(patches, control, tessellator, faces, levels, mesh);
+  fill_points(patches, control, tessellator, faces, levels, mesh, progress_within(progress, done, 1.0));
   report_progress(progress, 1.0);
   return mesh;
 }

@@ -10,6 +10,7 @@
 
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
+#include "batten/progress.h"
 #include "batten/refine/child_topology.h"
 #include "batten/refine/refined_mesh.h"
 #include "batten/refine/refined_values.h"
@@ -91,9 +92,11 @@ struct Tessellator::Parts {
   template <typename Scalar>
   void check_output(ConstValuesRef control_values, std::span<Scalar> out, std::span<Scalar> normals) const;
   template <typename Scalar>
-  void fill_interpolating(ConstValuesRef control_values, std::span<Scalar> out, std::span<Scalar> normals) const;
+  void fill_interpolating(ConstValuesRef control_values, std::span<Scalar> out, std::span<Scalar> normals,
+                          const Progress& progress) const;
   template <typename Scalar>
-  void evaluate(ConstValuesRef control_values, bool limit, std::span<Scalar> out, std::span<Scalar> normals) const;
+  void evaluate(ConstValuesRef control_values, bool limit, std::span<Scalar> out, std::span<Scalar> normals,
+                const Progress& progress) const;
 };
 
 namespace {
@@ -134,23 +137,29 @@ void Tessellator::Parts::check_output(ConstValuesRef control_values, std::span<S
 /// Refined points are on the limit surface.
 template <typename Scalar>
 void Tessellator::Parts::fill_interpolating(ConstValuesRef control_values, std::span<Scalar> out,
-                                            std::span<Scalar> normals) const {
-  if (normals.empty()) return fill_butterfly_grids(base(), scheme(), control_values, layout.levels, out.data());
+                                            std::span<Scalar> normals, const Progress& progress) const {
+  if (normals.empty()) {
+    return fill_butterfly_grids(base(), scheme(), control_values, layout.levels, out.data(), progress);
+  }
+  constexpr double kFilled = 0.5;  // of the time
   Values points(layout.vertices, 3);
-  fill_butterfly_grids(base(), scheme(), control_values, layout.levels, points.data());
+  fill_butterfly_grids(base(), scheme(), control_values, layout.levels, points.data(),
+                       progress_within(progress, 0.0, kFilled));
   const auto rounded = [](double number) { return static_cast<Scalar>(number); };
   std::transform(points.data(), points.data() + points.size(), out.begin(), rounded);
   const Values exact = butterfly_grid_normals(base(), scheme(), points, layout.levels).vertices;
   std::transform(exact.data(), exact.data() + exact.size(), normals.begin(), rounded);
+  report_progress(progress, 1.0);
 }
 
 template <typename Scalar>
 void Tessellator::Parts::evaluate(ConstValuesRef control_values, bool limit, std::span<Scalar> out,
-                                  std::span<Scalar> normals) const {
+                                  std::span<Scalar> normals, const Progress& progress) const {
+  constexpr double kCut = 0.1;  // of the time
   check_output(control_values, out, normals);
   if (out.empty()) return;
-  if (is_interpolating(scheme().kind)) return fill_interpolating(control_values, out, normals);
-  if (!limit && is_one_step()) return refine_values(control(), scheme(), {}, control_values, out.data());
+  if (is_interpolating(scheme().kind)) return fill_interpolating(control_values, out, normals, progress);
+  if (!limit && is_one_step()) return refine_values(control(), scheme(), {}, control_values, out.data(), progress);
   const auto k = static_cast<int>(control_values.cols());
   const bool with_normals = !normals.empty();
   const Values stepped = patches.has_first_step() ? patches.base_values(control_values) : Values();
@@ -163,6 +172,7 @@ void Tessellator::Parts::evaluate(ConstValuesRef control_values, bool limit, std
     kinds.push_back(&tables<Scalar>(TileValue::TangentU));
     kinds.push_back(&tables<Scalar>(TileValue::TangentV));
   }
+  report_progress(progress, kCut);
   const std::ptrdiff_t block = std::max<std::ptrdiff_t>(1, kPointsPerBlock / layout.faces_per_face);
   parallel_for(
       base().face_count(),
@@ -180,7 +190,7 @@ void Tessellator::Parts::evaluate(ConstValuesRef control_values, bool limit, std
           normal_writer.write(f, grids[1]);
         }
       },
-      block);
+      block, progress_within(progress, kCut, 1.0));
   for (Index v = 0; v < base().vertex_count(); ++v) {
     if (!base().is_isolated(v)) continue;
     for (int c = 0; c < k; ++c) out[static_cast<std::size_t>(v) * k + c] = static_cast<Scalar>(base_values(v, c));
@@ -210,13 +220,14 @@ const Topology& Tessellator::base() const { return parts_->base(); }
 Index Tessellator::steps() const { return parts_->layout.steps; }
 
 template <typename Scalar>
-void Tessellator::refined(ConstValuesRef control, std::span<Scalar> out) const {
-  parts_->evaluate<Scalar>(control, false, out, {});
+void Tessellator::refined(ConstValuesRef control, std::span<Scalar> out, const Progress& progress) const {
+  parts_->evaluate<Scalar>(control, false, out, {}, progress);
 }
 
 template <typename Scalar>
-void Tessellator::limit(ConstValuesRef control, std::span<Scalar> out, std::span<Scalar> normals) const {
-  parts_->evaluate<Scalar>(control, true, out, normals);
+void Tessellator::limit(ConstValuesRef control, std::span<Scalar> out, std::span<Scalar> normals,
+                        const Progress& progress) const {
+  parts_->evaluate<Scalar>(control, true, out, normals, progress);
 }
 
 Index Tessellator::vertex(Index base_face, Index i, Index j) const {
@@ -256,8 +267,12 @@ Attribute Tessellator::at_corners(const Attribute& attribute) const {
 
 template <typename Scalar>
 Tessellation<Scalar> tessellate(const Topology& topology, const Scheme& scheme, ConstValuesRef control, int levels,
-                                const TessellateOptions& options) {
-  const Tessellator tessellator(topology, scheme, levels);
+                                const TessellateOptions& options, const Progress& progress) {
+  constexpr double kConnected = 0.1;  // of the time
+  constexpr double kFilled = 0.9;
+  const SurfacePatches patches(topology, scheme, progress_within(progress, 0.0, kConnected));
+  const Tessellator tessellator(patches, levels);
+  const Progress filling = progress_within(progress, kConnected, kFilled);
   Tessellation<Scalar> result;
   result.face_size = tessellator.face_size();
   const auto numbers = 3 * static_cast<std::size_t>(tessellator.vertex_count());
@@ -265,20 +280,23 @@ Tessellation<Scalar> tessellate(const Topology& topology, const Scheme& scheme, 
   result.points.resize(numbers);
   if (options.normals) result.normals.resize(numbers);
   if (options.limit || options.normals) {
-    tessellator.limit<Scalar>(control, result.points, result.normals);
+    tessellator.limit<Scalar>(control, result.points, result.normals, filling);
   } else {
-    tessellator.refined<Scalar>(control, result.points);
+    tessellator.refined<Scalar>(control, result.points, filling);
   }
   result.faces.resize(static_cast<std::size_t>(tessellator.face_count()) * static_cast<std::size_t>(result.face_size));
   tessellator.faces(result.faces);
+  report_progress(progress, 1.0);
   return result;
 }
 
-template void Tessellator::refined(ConstValuesRef, std::span<float>) const;
-template void Tessellator::refined(ConstValuesRef, std::span<double>) const;
-template void Tessellator::limit(ConstValuesRef, std::span<float>, std::span<float>) const;
-template void Tessellator::limit(ConstValuesRef, std::span<double>, std::span<double>) const;
-template Tessellation<float> tessellate(const Topology&, const Scheme&, ConstValuesRef, int, const TessellateOptions&);
-template Tessellation<double> tessellate(const Topology&, const Scheme&, ConstValuesRef, int, const TessellateOptions&);
+template void Tessellator::refined(ConstValuesRef, std::span<float>, const Progress&) const;
+template void Tessellator::refined(ConstValuesRef, std::span<double>, const Progress&) const;
+template void Tessellator::limit(ConstValuesRef, std::span<float>, std::span<float>, const Progress&) const;
+template void Tessellator::limit(ConstValuesRef, std::span<double>, std::span<double>, const Progress&) const;
+template Tessellation<float> tessellate(const Topology&, const Scheme&, ConstValuesRef, int, const TessellateOptions&,
+                                        const Progress&);
+template Tessellation<double> tessellate(const Topology&, const Scheme&, ConstValuesRef, int, const TessellateOptions&,
+                                         const Progress&);
 
 }  // namespace batten

@@ -2,9 +2,8 @@
 ///
 /// The same points as Refinement's after `levels` steps, to rounding, in another order: each face of the base is a grid
 /// of 2^steps steps a side, filled at once from the control points that its spline needs (patch/pieces.h), or, under
-/// the Butterflies, level by level (tessellate/butterfly_grids.h). The base is
-/// the control mesh itself, or, for Catmull-Clark with faces that are no quads or with alpha, its first refinement;
-/// then steps is levels - 1.
+/// the Butterflies, level by level (tessellate/butterfly_grids.h). The base is the control mesh itself, or, for
+/// Catmull-Clark with faces that are no quads or with alpha, its first refinement; then steps is levels - 1.
 ///
 /// Vertex order: the base's vertices (so vertex i of the control mesh is vertex i), then the points inside each edge,
 /// from the origin of its lower half-edge on, then those inside each face, row by row of v, u along its first
@@ -36,14 +35,15 @@ class Tessellator {
   Index face_size() const;  ///< 4 or 3
 
   /// out: vertex_count() rows of control.cols() numbers. Scalar is float or double.
-  /// Throws Error(BadShape) where a size is wrong.
+  /// Throws Error(BadShape) where a size is wrong, Error(Cancelled).
   template <typename Scalar>
-  void refined(ConstValuesRef control, std::span<Scalar> out) const;
+  void refined(ConstValuesRef control, std::span<Scalar> out, const Progress& progress = {}) const;
 
   /// Limit positions, and where `normals` is not empty the unit normals of the limit surface (control: V-by-3); at a
   /// crease the normal of the side that the vertex or edge belongs to, zero where there is none.
   template <typename Scalar>
-  void limit(ConstValuesRef control, std::span<Scalar> out, std::span<Scalar> normals = {}) const;
+  void limit(ConstValuesRef control, std::span<Scalar> out, std::span<Scalar> normals = {},
+             const Progress& progress = {}) const;
 
   /// out: face_count() * face_size() vertices, counter-clockwise.
   void faces(std::span<Index> out) const;
@@ -78,9 +78,9 @@ struct TessellateOptions {
   bool normals = false;  ///< of the limit surface
 };
 
-/// Once. control: V-by-3. Throws what Tessellator throws.
+/// Tessellates once. control: V-by-3. Throws what Tessellator throws.
 template <typename Scalar = float>
 Tessellation<Scalar> tessellate(const Topology& topology, const Scheme& scheme, ConstValuesRef control, int levels,
-                                const TessellateOptions& options = {});
+                                const TessellateOptions& options = {}, const Progress& progress = {});
 
 }  // namespace batten
