@@ -61,13 +61,12 @@ std::string against_rivals(const Subject& subject, bool with_cholesky) {
   const Interpolator plain(subject.topology, subject.scheme, options_of(SolveMethod::ConjugateGradient));
   const Sweeps sweeps(subject);
   const double eigen = eigen_tolerance(subject);
-  Interpolant result;
   int iterations[6] = {};
   const auto solve = [&](const Interpolator& interpolator, int place) {
     return [&, place] {
-      result = interpolator.solve(subject.targets);
-      iterations[place] = result.report.solve.iterations;
-      if (!result.report.converged()) throw std::runtime_error(result.report.solve.method_name + " did not converge");
+      const SolveReport solved = interpolator.solve(subject.targets).report.solve;
+      iterations[place] = solved.iterations;
+      if (!solved.converged) throw std::runtime_error(solved.method_name + " did not converge");
     };
   };
   const std::vector<double> seconds =
@@ -89,7 +88,7 @@ std::string against_rivals(const Subject& subject, bool with_cholesky) {
   add("our conjugate gradients (double, matrix-free)", std::to_string(iterations[5]), seconds[5], seconds[0]);
   if (with_cholesky) {
     const Interpolator direct(subject.topology, subject.scheme, options_of(SolveMethod::Direct));
-    add("sparse Cholesky (Eigen), assembly included", "", seconds_of([&] { result = direct.solve(subject.targets); }),
+    add("sparse Cholesky (Eigen), assembly included", "", seconds_of([&] { direct.solve(subject.targets); }),
         seconds[0]);
   }
   add("Batten, build", "", seconds[7], seconds[0]);
