@@ -18,6 +18,12 @@ std::string removed_text(const DenoiseArguments& arguments, const DenoiseResult&
              : text;
 }
 
+/// The noise belongs to the mesh given, and so does the mean edge. A mesh in one point has no edge to compare with.
+std::string noise_text(double deviation, double mean_edge) {
+  const std::string text = fmt::format("{:.4g}", deviation);
+  return mean_edge > 0.0 ? text + fmt::format(" ({:.3g} of the mean edge)", deviation / mean_edge) : text;
+}
+
 std::string volume_text(const DenoiseArguments& arguments, const DenoiseResult& result) {
   if (result.closed_components == 0) return "none: no component is closed";
   const double change = result.volume_before != 0.0 ? result.volume_after / result.volume_before - 1.0 : 0.0;
@@ -31,7 +37,7 @@ std::string volume_text(const DenoiseArguments& arguments, const DenoiseResult& 
 }
 
 void print_table(const DenoiseArguments& arguments, const Topology& topology, const Scheme& scheme,
-                 const DenoiseResult& result, double diagonal, const Job& job) {
+                 const DenoiseResult& result, double diagonal, double mean_edge, const Job& job) {
   const SmoothingChoice& smoothing = result.smoothing;
   Table table;
   table.add("mesh", mesh_text(topology));
@@ -39,8 +45,7 @@ void print_table(const DenoiseArguments& arguments, const Topology& topology, co
   if (arguments.options.features)
     table.add("features", count_of(static_cast<std::int64_t>(result.features.size()), "sharp edge", "sharp edges") +
                               fmt::format(" of over {:g} degrees", arguments.options.feature_options.degrees));
-  table.add("noise", fmt::format("{:.4g} ({:.3g} of the mean edge)", result.noise.deviation,
-                                 result.noise.deviation / mean_edge_length(topology, result.points)));
+  table.add("noise", noise_text(result.noise.deviation, mean_edge));
   const double halved = halved_wavelength(scheme.kind, arguments.options.matrix, smoothing.m, smoothing.passes);
   table.add("smoothed", fmt::format("{} with m = {}: {}", count_of(smoothing.passes, "pass", "passes"), smoothing.m,
                                     halved > 0.0 ? fmt::format("halves bumps {:.3g} edges long", halved)
@@ -104,7 +109,7 @@ int run_denoise(const DenoiseArguments& arguments) {
     job.stages.finish("picture");
   }
   const double diagonal = bounding_diagonal(mesh.points);
-  print_table(arguments, topology, scheme, result, diagonal, job);
+  print_table(arguments, topology, scheme, result, diagonal, mean_edge_length(topology, mesh.points), job);
   job.report(report_json(arguments, topology, scheme, result, diagonal));
   return 0;
 }

@@ -46,7 +46,9 @@ nlohmann::ordered_json report_json(const DistanceArguments& arguments, const Sur
           {"percentile_99", summary.most_of_99},
           {"max_outside", summary.most_outside},
           {"max_inside", summary.most_inside},
+          {"points_outside", summary.outside_count},
           {"points_inside", summary.inside_count},
+          {"points_on_surface", summary.on_count},
           {"histogram", histogram_json(histogram)},
           {"farthest", points_json(measured, farthest_points(measured.distances, 10))}};
 }
@@ -92,6 +94,10 @@ void write_distances(const CommonArguments& common, Mesh& scan, const Scalars& d
   write_output(common, scan);
 }
 
+std::string side_text(double most, Index count) {
+  return count > 0 ? fmt::format("at most {:.4g}, {}", most, count_of(count, "point", "points")) : "no point";
+}
+
 void print_table(const Topology& topology, const Scheme& scheme, const SurfaceDistances& measured,
                  const DistanceSummary& summary, const Histogram& histogram, const Job& job) {
   Table table;
@@ -102,10 +108,12 @@ void print_table(const Topology& topology, const Scheme& scheme, const SurfaceDi
   table.add("max", fmt::format("{:.4g} at point {} ({:.3g} of the diagonal)", summary.max, summary.max_point,
                                part(summary.max)));
   if (measured.closed) {
-    table.add("outside", fmt::format("at most {:.4g}, {}", summary.most_outside,
-                                     count_of(measured.distances.size() - summary.inside_count, "point", "points")));
-    table.add("inside", fmt::format("at most {:.4g}, {}", summary.most_inside,
-                                    count_of(summary.inside_count, "point", "points")));
+    table.add("outside", side_text(summary.most_outside, summary.outside_count));
+    table.add("inside", side_text(summary.most_inside, summary.inside_count));
+  }
+  if (summary.on_count > 0) {
+    table.add("on it", fmt::format("{} within {:.2g}, which is 0 here", count_of(summary.on_count, "point", "points"),
+                                   measured.tolerance));
   }
   table.add("rms", fmt::format("{:.4g} ({:.3g} of the diagonal)", summary.rms, part(summary.rms)));
   table.add("mean", fmt::format("{:.4g}, half of the points within {:.4g}, 95 % within {:.4g}, 99 % within {:.4g}",
@@ -136,7 +144,7 @@ int run_distance(const DistanceArguments& arguments) {
   const Scheme scheme = scheme_for(common, control);
   const SurfaceDistances measured = measure_distances(topology, scheme, control.points, scan.points,
                                                       ProgressBar("measuring", common.quiet).callback());
-  const DistanceSummary summary = summarize_distances(measured.distances);
+  const DistanceSummary summary = summarize_distances(measured.distances, measured.tolerance);
   const Histogram histogram = histogram_of(measured.distances);
   job.stages.finish("measure");
   write_distances(common, scan, measured.distances);

@@ -2,8 +2,10 @@
 
 #include "batten/mesh/check.h"
 #include "batten/mesh/places.h"
+#include "batten/mesh/seams.h"
 #include "batten/mesh/summary.h"
 #include "batten/parallel/parallel.h"
+#include "cli/contents.h"
 #include "cli/input_output.h"
 #include "cli/progress.h"
 #include "cli/report.h"
@@ -107,6 +109,19 @@ void describe_topology(const Topology& topology, Table& table, Json& json) {
   describe_creases(summary, table, json);
 }
 
+void describe_seams(Index count, bool repaired, Table& table, Json& json) {
+  if (count > 0) table.add("seams", seams_text(count, repaired));
+  json["coincident_boundary_vertices"] = count;
+}
+
+/// "by Chebyshev in tiles in 30 iterations"
+std::string solve_text(const SolveReport& solve) {
+  if (solve.method == SolveMethod::Auto) return "without solving anything";
+  const std::string text = "by " + solve.method_name;
+  if (solve.iterations == 0) return text;
+  return text + " in " + count_of(solve.iterations, "iteration", "iterations");
+}
+
 /// Takes the mesh as the control points of a surface and finds them again from the limit positions.
 void describe_interpolation(const Mesh& mesh, const Topology& topology, const Scheme& scheme, bool quiet, Table& table,
                             Json& json) {
@@ -120,9 +135,8 @@ void describe_interpolation(const Mesh& mesh, const Topology& topology, const Sc
                 ? std::string("no component is singular")
                 : count_of(static_cast<std::int64_t>(found.report.singular.size()), "component is", "components are") +
                       " singular: a surface passes through some sets of points only");
-  table.add("self-check", fmt::format("a known surface was found again by {} in {}, to {:.2g} of the diagonal{}",
-                                      found.report.solve.method_name,
-                                      count_of(found.report.solve.iterations, "iteration", "iterations"), error,
+  table.add("self-check", fmt::format("a known surface was found again {}, to {:.2g} of the diagonal{}",
+                                      solve_text(found.report.solve), error,
                                       found.report.converged() ? "" : ": NOT as exact as asked"));
   json["interpolation"] = {{"singular_components", found.report.singular.size()},
                            {"method", found.report.solve.method_name},
@@ -216,12 +230,16 @@ int run_info(const CommonArguments& arguments) {
   Table table;
   Json json{{"verb", "info"}, {"input", arguments.input}, {"repairs", repairs}};
   describe_mesh(mesh, table, json);
+  describe_box(mesh, table, json);
+  describe_values(mesh, table, json);
   const std::vector<MeshProblem> problems = check(mesh, 10, ProgressBar("checking", arguments.quiet).callback());
   describe_problems(problems, table, json);
   if (problems.empty()) {
     const Topology topology(mesh, ProgressBar("connecting", arguments.quiet).callback());
     const Scheme scheme = choose_scheme(mesh);
     describe_topology(topology, table, json);
+    describe_seams(coincident_boundary_count(topology, mesh.points), arguments.repair, table, json);
+    describe_sizes(topology, mesh.points, table, json);
     table.add("surface", scheme_text(scheme));
     json["scheme"] = scheme_json(scheme);
     if (mesh.face_count() > 0) describe_interpolation(mesh, topology, scheme, arguments.quiet, table, json);

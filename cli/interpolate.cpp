@@ -224,7 +224,7 @@ void print_table(const Topology& topology, const Scheme& scheme, const std::vect
   Table table;
   table.add("mesh", mesh_text(topology));
   table.add("scheme", scheme_text(scheme));
-  table.add("method", fmt::format("{}, {}", solve.method_name, count_of(solve.iterations, "iteration", "iterations")));
+  table.add("method", method_text(solve));
   add_error_rows(table, reports);
   add_all_singular_rows(table, reports);
   if (!written.empty()) table.add("written", written);

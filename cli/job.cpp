@@ -1,5 +1,9 @@
 #include "cli/job.h"
 
+#include <fmt/format.h>
+
+#include "batten/mesh/seams.h"
+
 namespace batten::cli {
 
 Job::Job(std::string verb_in, const CommonArguments& arguments)
@@ -9,6 +13,10 @@ Job::Job(std::string verb_in, const CommonArguments& arguments)
 
 Topology Job::connect() {
   Topology topology(mesh, ProgressBar("connecting", common.quiet).callback());
+  seam_vertices = coincident_boundary_count(topology, mesh.points);
+  if (*seam_vertices > 0 && !common.quiet) {
+    fmt::print(stderr, "batten: {}\n", seams_text(*seam_vertices, common.repair));
+  }
   stages.finish("topology");
   return topology;
 }
@@ -27,6 +35,7 @@ void Job::report(const nlohmann::ordered_json& facts) const {
   nlohmann::ordered_json json = {
       {"verb", verb}, {"input", common.input}, {"output", common.output}, {"repairs", repairs}};
   json.update(facts);
+  if (seam_vertices) json["coincident_boundary_vertices"] = *seam_vertices;
   json["threads"] = thread_count();
   json["seconds"] = stages.json();
   write_json(common.report, json);

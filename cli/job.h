@@ -14,7 +14,7 @@ struct Job {
   /// Limits the threads and reads the input; counts as a stage. The arguments must outlive it.
   Job(std::string verb_in, const CommonArguments& arguments);
 
-  /// The topology of the mesh; counts as a stage.
+  /// The topology of the mesh; counts as a stage. Says on stderr where seams stay open.
   Topology connect();
   /// Writes a mesh to the output, if there is one; counts as a stage.
   void write(const Mesh& result);
@@ -27,7 +27,8 @@ struct Job {
   const CommonArguments& common;
   ThreadLimit limit;
   Stages stages;
-  nlohmann::ordered_json repairs;  ///< null without --repair
+  nlohmann::ordered_json repairs;      ///< null without --repair
+  std::optional<Index> seam_vertices;  ///< coincident_boundary_count, known after connect()
   Mesh mesh;
 };
 

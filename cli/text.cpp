@@ -54,4 +54,14 @@ std::string scheme_text(const Scheme& scheme) {
   return text;
 }
 
+std::string seams_text(Index count, bool repaired) {
+  return count_of(count, "vertex of open edges lies", "vertices of open edges lie") + " on others: seams stay open" +
+         (repaired ? "" : "; --repair welds them");
+}
+
+std::string method_text(const SolveReport& report) {
+  if (report.iterations == 0) return report.method_name;
+  return report.method_name + ", " + count_of(report.iterations, "iteration", "iterations");
+}
+
 }  // namespace batten::cli

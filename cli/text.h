@@ -5,6 +5,7 @@
 
 #include "batten/mesh/topology.h"
 #include "batten/scheme/scheme.h"
+#include "batten/solve/solver.h"
 
 namespace batten::cli {
 
@@ -17,5 +18,9 @@ std::string size_text(const Mesh& mesh);
 /// As size_text, and how many vertices have no face.
 std::string mesh_text(const Topology& topology);
 std::string scheme_text(const Scheme& scheme);
+/// "16 vertices of open edges lie on others: seams stay open; --repair welds them"
+std::string seams_text(Index count, bool repaired);
+/// "Chebyshev in tiles, 30 iterations"; without iterations where there was none to make.
+std::string method_text(const SolveReport& report);
 
 }  // namespace batten::cli

@@ -93,5 +93,19 @@ TEST_F(Tool, ToleranceBelowRoundingIsSaidToBe) {
   EXPECT_EQ(Json::parse(text_of(path("r.json")))["outcome"], "rounding");
 }
 
+TEST_F(Tool, NoMethodTakesMoreIterationsThanAllowed) {
+  const std::string verb = "interpolate " + kModels + "creature.obj --report r.json --max-iterations ";
+  for (const std::string method : {"auto", "conjugate-gradient", "chebyshev", "jacobi", "richardson"}) {
+    for (const int most : {1, 5, 13}) {
+      run(verb + std::to_string(most) + " --method " + method);
+      EXPECT_EQ(Json::parse(text_of(path("r.json")))["iterations"], most) << method;
+    }
+  }
+  // A dart makes the matrix unsymmetric, and BiCGSTAB applies it twice an iteration.
+  write("dart.obj", text_of(kModels + "tripod.obj") + "t crease 2/1/0 0 1 2\n");
+  run("interpolate dart.obj --report r.json --method conjugate-gradient --max-iterations 5");
+  EXPECT_LE(Json::parse(text_of(path("r.json")))["iterations"].get<int>(), 5);
+}
+
 }  // namespace
 }  // namespace batten::cli_tests

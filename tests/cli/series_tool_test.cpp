@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "batten/io/io.h"
+#include "batten/mesh/moved_mesh.h"
 #include "cli/tool.h"
 
 namespace batten::cli_tests {
@@ -37,6 +38,32 @@ TEST_F(Tool, DenoisesByAStrengthInEdgeLengths) {
   EXPECT_NE(points.err.find("no faces"), std::string::npos) << points.err;
 }
 
+/// "noise      0.0123 (0.04 of the mean edge)": the share.
+double noise_share(const std::string& text) {
+  const std::size_t row = text.find("\nnoise");
+  return std::stod(text.substr(text.find('(', row) + 1));
+}
+
+TEST_F(Tool, DenoiseComparesTheNoiseWithTheEdgesGiven) {
+  // So many passes shrink the edges to a part of their length.
+  const Outcome result = run("denoise " + kModels + "torus-knot.obj --passes 400 -o a.obj --report r.json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Mesh given = read_mesh(kModels + "torus-knot.obj");
+  const Mesh smooth = read_mesh(path("a.obj"));
+  const double edge = mean_edge_length(Topology(given), given.points);
+  ASSERT_LT(mean_edge_length(Topology(smooth), smooth.points), 0.9 * edge);
+  const double noise = nlohmann::json::parse(text_of(path("r.json")))["noise"].get<double>();
+  EXPECT_NEAR(noise_share(result.out), noise / edge, 0.01 * noise / edge);  // three digits are printed
+}
+
+TEST_F(Tool, DenoiseSaysNoShareOfEdgesWithoutALength) {
+  write("point.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n");
+  const Outcome result = run("denoise point.obj -o a.obj");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.out.find("nan"), std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find("of the mean edge"), std::string::npos) << result.out;
+}
+
 TEST_F(Tool, SharpensAndWarnsOfFacesThatPassThroughEachOther) {
   const Outcome mild = run("sharpen " + kModels + "creature.obj -o sharp.obj --report r.json");
   ASSERT_EQ(mild.status, 0) << mild.err;
@@ -47,7 +74,7 @@ TEST_F(Tool, SharpensAndWarnsOfFacesThatPassThroughEachOther) {
   const Outcome wild = run("sharpen " + kModels + "bracket-scan.obj --passes 4 --most-growth 1000 --report w.json");
   EXPECT_NE(wild.out.find("WARNING"), std::string::npos) << wild.out;
   EXPECT_GT(nlohmann::json::parse(text_of(path("w.json")))["intersections_after"]["count"].get<int>(), 0);
-  const Outcome wrong = run("sharpen " + kModels + "creature.obj -m 4 -n 3");
+  const Outcome wrong = run("sharpen " + kModels + "creature.obj -o x.obj -m 4 -n 3");
   EXPECT_EQ(wrong.status, 1);
   EXPECT_NE(wrong.err.find("1 <= m <= n"), std::string::npos) << wrong.err;
 }
@@ -75,7 +102,7 @@ TEST_F(Tool, SplitsAMeshIntoBandsThatAddUpToIt) {
   const auto report = nlohmann::json::parse(text_of(path("r.json")));
   EXPECT_NEAR(report["bands"][1]["rms"].get<double>(), second.norm() / std::sqrt(before.vertex_count()), 1e-12);
   EXPECT_EQ(run("bands " + kModels + "creature.obj --gains 1,2 --count 3").status, 2);
-  EXPECT_EQ(run("bands " + kModels + "creature.obj --gains 1").status, 1);
+  EXPECT_EQ(run("bands " + kModels + "creature.obj -o x.obj --gains 1").status, 1);
 }
 
 }  // namespace

@@ -177,6 +177,19 @@ TEST_F(Tool, InterpolatedPointsLieOnTheSurface) {
   EXPECT_GT(report["points"].get<int>(), 100);
 }
 
+TEST_F(Tool, PointsOnTheSurfaceAreNeitherOutsideNorInside) {
+  ASSERT_EQ(run("interpolate " + kModels + "creature.obj -o control.obj").status, 0);
+  const Outcome result = run("distance " + kModels + "creature.obj control.obj --report r.json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("outside     no point\n"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("inside      no point\n"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("on it       602 points within "), std::string::npos) << result.out;
+  const auto report = nlohmann::json::parse(text_of(path("r.json")));
+  EXPECT_EQ(report["points_outside"], 0);
+  EXPECT_EQ(report["points_inside"], 0);
+  EXPECT_EQ(report["points_on_surface"], 602);
+}
+
 TEST_F(Tool, AnOpenSurfaceHasNoInside) {
   write("quad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
   write("scan.xyz", "0.5 0.5 -1\n0.5 0.5 2\n");

@@ -24,6 +24,19 @@ TEST(DistanceSummary, TellsExtremesMeansAndShares) {
   EXPECT_EQ(summary.most_outside, 2.0);
   EXPECT_EQ(summary.most_inside, 3.0);
   EXPECT_EQ(summary.inside_count, 2);
+  EXPECT_EQ(summary.outside_count, 2);
+  EXPECT_EQ(summary.on_count, 0);
+}
+
+TEST(DistanceSummary, CountsPointsWithinTheToleranceOnNeitherSide) {
+  Scalars distances(5);
+  distances << 1e-10, -1e-10, 0.0, 2.0, -3.0;
+  const DistanceSummary summary = summarize_distances(distances, 1e-10);
+  EXPECT_EQ(summary.on_count, 3);
+  EXPECT_EQ(summary.outside_count, 1);
+  EXPECT_EQ(summary.inside_count, 1);
+  EXPECT_EQ(summarize_distances(distances.head(3), 1e-10).most_outside, 0.0);
+  EXPECT_EQ(summarize_distances(distances.head(3), 1e-10).max, 1e-10);
 }
 
 TEST(Histogram, HasAnEdgeAtZeroAndCountsEveryValueOnce) {

@@ -73,7 +73,9 @@ SolveReport FreeBlock::solve_krylov(ConstValuesRef targets, Values& x, const Sto
     report = conjugate_gradients(map(), scale, scale.cwiseProduct(diagonal), b, x, stop);
   }
   if (!symmetric_ || !positive || report.indefinite) {
-    report.append(bicgstab(map(), diagonal, b, x, stop), ", then ");
+    StopRule rest = stop;
+    rest.max_iterations -= report.iterations;
+    report.append(bicgstab(map(), diagonal, b, x, rest), ", then ");
   }
   report.seconds = watch.seconds();
   return report;
@@ -126,7 +128,6 @@ SolveReport FreeBlock::solve_direct(ConstValuesRef targets, Values& x, const Sto
   for (Index v = 0; v < size(); ++v) {
     if (place[v] >= 0) x.row(v) = solution.row(place[v]);
   }
-  report.iterations = 2;
   Values residual(x.rows(), x.cols());
   matrix_.apply_unchecked(x, residual);
   residual = targets - residual;

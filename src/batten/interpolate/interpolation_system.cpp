@@ -143,8 +143,9 @@ SolveReport InterpolationSystem::solve_block(ConstValuesRef targets, Values& x, 
   report = iterate(SolveMethod::Chebyshev, targets, x, stop);
   if (report.converged) return report;
   if (!x.allFinite()) begin(targets, x);
-  SolveReport krylov = block_->solve_krylov(targets, x, stop);
-  append_attempt(report, krylov);
+  StopRule rest = stop;
+  rest.max_iterations -= report.iterations;
+  append_attempt(report, block_->solve_krylov(targets, x, rest));
   if (report.converged) return report;
   begin(targets, x);
   append_attempt(report, try_direct(*block_, targets, x, stop));

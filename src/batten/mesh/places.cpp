@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <unordered_map>
 #include <vector>
 
@@ -20,6 +21,18 @@ struct CellHash {
     return hash;
   }
 };
+
+std::uint64_t coordinate_hash(const Eigen::RowVector3d& point) {
+  std::uint64_t hash = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double x = point[k] + 0.0;  // -0 equals 0
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &x, sizeof(bits));
+    hash = (hash ^ bits) * 0x9e3779b97f4a7c15U;
+    hash ^= hash >> 32;
+  }
+  return hash;
+}
 
 Buffer<Index> equal_places(const Points& points, const Buffer<Index>& rows) {
   Buffer<Index> order(rows.size());
@@ -74,14 +87,30 @@ Buffer<Index> place_numbers(const Points& points, const Buffer<Index>& rows, dou
   return tolerance > 1e-16 * largest ? near_places(points, rows, tolerance) : equal_places(points, rows);
 }
 
+Buffer<Index> first_equal(const Points& points, const Buffer<Index>& rows) {
+  std::size_t size = 2;
+  while (size < 2 * rows.size()) size *= 2;
+  Buffer<Index> table(size, -1);
+  Buffer<Index> first(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Eigen::RowVector3d point = points.row(rows[i]);
+    std::size_t slot = coordinate_hash(point) & (size - 1);
+    while (table[slot] >= 0 && points.row(rows[table[slot]]) != point) slot = (slot + 1) & (size - 1);
+    if (table[slot] < 0) table[slot] = static_cast<Index>(i);
+    first[i] = table[slot];
+  }
+  return first;
+}
+
 Index coincident_count(const Points& points) {
   Buffer<Index> rows;
   for (Index v = 0; v < points.rows(); ++v) {
     if (points.row(v).allFinite()) rows.push_back(v);
   }
-  Buffer<Index> numbers = equal_places(points, rows);
-  std::sort(numbers.begin(), numbers.end());
-  return static_cast<Index>(numbers.end() - std::unique(numbers.begin(), numbers.end()));
+  const Buffer<Index> first = first_equal(points, rows);
+  Index count = 0;
+  for (std::size_t i = 0; i < first.size(); ++i) count += first[i] != static_cast<Index>(i) ? 1 : 0;
+  return count;
 }
 
 }  // namespace batten

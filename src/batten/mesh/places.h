@@ -10,6 +10,10 @@ namespace batten {
 /// that lies within the tolerance in each coordinate and has a place of its own, in O(n) expected.
 Buffer<Index> place_numbers(const Points& points, const Buffer<Index>& rows, double tolerance);
 
+/// For each of the rows (indices into points) the place in `rows` of the first one with equal coordinates: i for row i
+/// itself where no earlier one lies there. NaN equals nothing. O(n) expected.
+Buffer<Index> first_equal(const Points& points, const Buffer<Index>& rows);
+
 /// The number of vertices whose coordinates equal those of an earlier vertex. Points that are not finite do not count.
 Index coincident_count(const Points& points);
 

@@ -27,7 +27,7 @@ double round_width(double width) {
 
 }  // namespace
 
-DistanceSummary summarize_distances(const Scalars& distances) {
+DistanceSummary summarize_distances(const Scalars& distances, double tolerance) {
   DistanceSummary summary;
   std::vector<double> sizes(static_cast<std::size_t>(distances.size()));
   for (Eigen::Index i = 0; i < distances.size(); ++i) {
@@ -37,9 +37,15 @@ DistanceSummary summarize_distances(const Scalars& distances) {
       summary.max = size;
       summary.max_point = static_cast<Index>(i);
     }
-    summary.most_outside = std::max(summary.most_outside, distances[i]);
-    summary.most_inside = std::max(summary.most_inside, -distances[i]);
-    summary.inside_count += distances[i] < 0.0 ? 1 : 0;
+    if (size <= tolerance) {
+      ++summary.on_count;
+    } else if (distances[i] < 0.0) {
+      ++summary.inside_count;
+      summary.most_inside = std::max(summary.most_inside, size);
+    } else {
+      ++summary.outside_count;
+      summary.most_outside = std::max(summary.most_outside, size);
+    }
   }
   const auto count = static_cast<double>(sizes.size());
   summary.rms = std::sqrt(distances.squaredNorm() / count);

@@ -17,10 +17,13 @@ struct DistanceSummary {
   double most_of_99 = 0.0;
   double most_outside = 0.0;  ///< 0 where no point is
   double most_inside = 0.0;
+  Index outside_count = 0;
   Index inside_count = 0;
+  Index on_count = 0;  ///< neither: the size is within the tolerance
 };
-/// distances: one or more, finite. O(n).
-DistanceSummary summarize_distances(const Scalars& distances);
+
+/// distances: one or more, finite; tolerance: what each may be wrong by (SurfaceDistances::tolerance). O(n).
+DistanceSummary summarize_distances(const Scalars& distances, double tolerance = 0.0);
 
 /// Bars of one width, which is 1, 2 or 5 times a power of ten; 0 is the edge of one.
 struct Histogram {

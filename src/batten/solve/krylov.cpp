@@ -176,7 +176,7 @@ SolveReport bicgstab(const LinearMap& a, const Eigen::VectorXd& diagonal, const 
   SolveReport report = report_of(SolveMethod::BiCgStab);
   BiCgStab solver(a, diagonal, b, x);
   report.measured(solver.residual_norm());
-  while (!(report.residual_history.back() <= stop.tolerance) && report.iterations < stop.max_iterations) {
+  while (!(report.residual_history.back() <= stop.tolerance) && report.iterations + 2 <= stop.max_iterations) {
     const bool sound = solver.step();
     report.iterations += 2;
     if (!sound || report.iterations % kRestartEvery == 0) solver.restart();

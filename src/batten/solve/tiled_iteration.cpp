@@ -247,10 +247,12 @@ class Rounds {
       stop_.report(history.front(), now);
       converged = now <= tolerance;
       if (converged || iterations >= stop_.max_iterations || !std::isfinite(now)) return;
-      int steps = kSteps;
+      const int left = stop_.max_iterations - iterations;
+      int steps = std::min(kSteps, left);
       Schedule schedule;
       if (options_.method == SolveMethod::Chebyshev) {
         if (!adapt(now, tolerance, steps)) return;
+        steps = std::min(steps, left);
         schedule = chebyshev_.next(steps);
       } else {
         schedule = stationary_schedule(options_);
