@@ -34,6 +34,7 @@ struct CommonArguments {
   bool repair = false;
   bool quiet = false;
   bool ascii = false;
+  bool text_to_stderr = false;  ///< an output takes standard output
   int threads = 0;
 };
 
@@ -152,6 +153,9 @@ struct BandsArguments {
   std::string plot;
 };
 
+/// The files of a morph where --frames does not say how many.
+inline constexpr int kMorphFrames = 11;
+
 struct MorphArguments {
   CommonArguments common;  ///< input: where it starts
   PictureArguments picture;
@@ -159,7 +163,7 @@ struct MorphArguments {
   MorphOptions options;
   std::optional<double> rho;  ///< the paper's sequence
   bool align = true;
-  int frames = -1;           ///< -1: 11 files, or 24 key frames in a GLB
+  int frames = -1;           ///< -1: kMorphFrames files, or 24 key frames in a GLB
   std::optional<double> at;  ///< one frame
   double seconds = 2.0;      ///< of a GLB's animation
   int levels = -1;           ///< of a GLB's surface; -1: at most 3

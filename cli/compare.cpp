@@ -2,13 +2,14 @@
 #include <fmt/format.h>
 
 #include "cli/compare.h"
+#include "cli/table.h"
 #include "cli/text.h"
 
 namespace batten::cli {
 
 void print_methods(const std::vector<MethodResult>& results, double diagonal, const CommonArguments& arguments) {
   if (arguments.quiet) return;
-  std::FILE* out = arguments.output == "-" ? stderr : stdout;
+  std::FILE* out = text_stream(arguments);
   fmt::print(out, "\n{:<20}  {:>10}  {:>8}  {:>8}  {:>12}  {}\n", "method", "iterations", "build s", "solve s",
              "max error", "how");
   for (const MethodResult& result : results) {

@@ -38,22 +38,24 @@ void draw_compared(const std::vector<ComparedSurface>& all, const Mesh& mesh, co
 
 std::string how(const ComparedSurface& compared) {
   if (compared.method.empty()) return "no solve";
+  if (compared.iterations == 0) return compared.method;
   return fmt::format("{}, {}", compared.method, count_of(compared.iterations, "iteration", "iterations"));
 }
 
 void print_compared(const std::vector<ComparedSurface>& all, const CommonArguments& common) {
   if (common.quiet) return;
-  fmt::print("\n{:<27}  {:>10}  {:>10}  {:>8}  {}\n", "surface", "bending", "variation", "faces", "how");
+  std::FILE* out = text_stream(common);
+  fmt::print(out, "\n{:<27}  {:>10}  {:>10}  {:>8}  {}\n", "surface", "bending", "variation", "faces", "how");
   for (const ComparedSurface& compared : all) {
     if (!compared.failure.empty()) {
-      fmt::print("{:<27}  {}\n", compared.name, compared.failure);
+      fmt::print(out, "{:<27}  {}\n", compared.name, compared.failure);
       continue;
     }
-    fmt::print("{:<27}  {:>10.4g}  {:>10.4g}  {:>8}  {}\n", compared.name, compared.fairness.bending,
+    fmt::print(out, "{:<27}  {:>10.4g}  {:>10.4g}  {:>8}  {}\n", compared.name, compared.fairness.bending,
                compared.fairness.variation, grouped(compared.mesh.face_count()), how(compared));
   }
-  fmt::print("bending: the integral of the squared mean curvature (a sphere of any size has 12.57)\n");
-  fmt::print("variation: the area times the integral of its squared gradient (a sphere has 0)\n");
+  fmt::print(out, "bending: the integral of the squared mean curvature (a sphere of any size has 12.57)\n");
+  fmt::print(out, "variation: the area times the integral of its squared gradient (a sphere has 0)\n");
 }
 
 nlohmann::ordered_json compared_json(const std::vector<ComparedSurface>& all) {
@@ -93,7 +95,7 @@ int run_compare_schemes(const SubdivideArguments& arguments) {
   const int levels = arguments.levels < 0 ? picture_levels(topology) : arguments.levels;
   ProgressBar bar("comparing", common.quiet);
   const std::vector<ComparedSurface> all =
-      compare_schemes(topology, scheme_for(common, mesh), mesh.points, levels, bar.callback());
+      compare_schemes(topology, scheme_as_asked(common, mesh), mesh.points, levels, bar.callback());
   job.stages.finish("compare");
   if (!arguments.picture.path.empty()) {
     draw_compared(all, mesh, arguments.picture, common.quiet);

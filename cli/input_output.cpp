@@ -9,6 +9,7 @@
 #include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/table.h"
+#include "cli/usage_error.h"
 
 namespace batten::cli {
 
@@ -32,7 +33,7 @@ void write_output(const CommonArguments& arguments, const Mesh& mesh) {
   write_mesh(arguments.output, mesh, {arguments.output_format, !arguments.ascii}, bar.callback());
 }
 
-Scheme scheme_for(const CommonArguments& arguments, const Mesh& mesh) {
+Scheme scheme_as_asked(const CommonArguments& arguments, const Mesh& mesh) {
   Scheme scheme = choose_scheme(mesh);
   scheme.kind = arguments.scheme.value_or(scheme.kind);
   scheme.boundary = arguments.boundary.value_or(scheme.boundary);
@@ -41,6 +42,20 @@ Scheme scheme_for(const CommonArguments& arguments, const Mesh& mesh) {
   scheme.alpha = arguments.alpha;
   scheme.tension = arguments.tension;
   scheme.butterfly_boundary = arguments.butterfly_boundary.value_or(scheme.butterfly_boundary);
+  return scheme;
+}
+
+Scheme scheme_for(const CommonArguments& arguments, const Mesh& mesh) {
+  const Scheme scheme = scheme_as_asked(arguments, mesh);
+  const auto refuse = [&](const char* option, const char* others) {
+    throw UsageError(std::string(option) + " does nothing with " + scheme_name(scheme.kind) + ", only with " + others);
+  };
+  const bool quads = scheme.kind == SchemeKind::CatmullClark;
+  if (arguments.alpha > 0.0 && !quads) refuse("--alpha", "Catmull-Clark");
+  if (arguments.triangle_rule && !quads) refuse("--triangles", "Catmull-Clark");
+  if (arguments.tension && !is_interpolating(scheme.kind)) refuse("--tension", "Butterfly and Modified Butterfly");
+  if (arguments.butterfly_boundary && !is_interpolating(scheme.kind))
+    refuse("--butterfly-boundary", "Butterfly and Modified Butterfly");
   return scheme;
 }
 

@@ -13,6 +13,8 @@ Mesh read_input(const CommonArguments& arguments, nlohmann::ordered_json* repair
 /// Writes to the output; does nothing without one.
 void write_output(const CommonArguments& arguments, const Mesh& mesh);
 /// The mesh's own scheme, overruled by the options.
+Scheme scheme_as_asked(const CommonArguments& arguments, const Mesh& mesh);
+/// As scheme_as_asked. Throws UsageError where an option has no effect on the scheme's kind.
 Scheme scheme_for(const CommonArguments& arguments, const Mesh& mesh);
 /// name.png becomes name-007.png.
 std::string numbered(const std::string& path, std::size_t number);

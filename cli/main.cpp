@@ -27,6 +27,14 @@ struct Verbs {
   RepairArguments repair;
 };
 
+/// Prints what is wrong with the command line; returns the exit code.
+int report_usage(const CLI::App& app, const std::string& text) {
+  const std::vector<CLI::App*> parsed = app.get_subcommands();
+  const std::string verb = parsed.empty() ? "" : " " + parsed.front()->get_name();
+  std::fprintf(stderr, "batten: %s (see batten%s --help)\n", text.c_str(), verb.c_str());
+  return 2;
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Batten: smooth subdivision surfaces through data.", "batten");
   app.set_version_flag("--version", std::string("batten ") + BATTEN_VERSION);
@@ -48,17 +56,23 @@ int run(int argc, char** argv) {
   CLI::App& info = *app.add_subcommand("info", "what a mesh is made of, and whether a surface can be made of it");
   add_input(info, verbs.info);
   add_repair_flag(info, verbs.info);
-  info.callback([&] { status = run_info(verbs.info); });
+  set_run(info, verbs.info, status, [&] { return run_info(verbs.info); });
   CLI::App& convert = *app.add_subcommand("convert", "read one format, write another");
   add_input(convert, verbs.convert);
   add_output(convert, verbs.convert);
   add_repair_flag(convert, verbs.convert);
   convert.add_flag("--triangulate", verbs.convert.triangulate, "split all faces into triangles");
-  convert.callback([&] { status = run_convert(verbs.convert); });
+  set_run(convert, verbs.convert, status, [&] {
+    require_output(convert);
+    return run_convert(verbs.convert);
+  });
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    return report_usage(app, usage_text(app, error));
+  } catch (const UsageError& error) {
+    return report_usage(app, error.what());
   }
   return status;
 }

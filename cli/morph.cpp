@@ -184,7 +184,7 @@ int run_morph(const MorphArguments& arguments) {
   Table table;
   nlohmann::ordered_json report{{"target", arguments.target}};
   Run run{arguments, mesh, topology, scheme_for(common, mesh), is_glb(common), arguments.frames};
-  if (run.frames < 0) run.frames = run.animated ? 24 : 11;
+  if (run.frames < 0) run.frames = run.animated ? 24 : kMorphFrames;
   check_usage(run);
   table.add("mesh", mesh_text(topology));
   table.add("scheme", scheme_text(run.scheme));

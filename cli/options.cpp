@@ -1,8 +1,10 @@
 #include "cli/options.h"
 
+#include <algorithm>
 #include <array>
-#include <filesystem>
 #include <sstream>
+
+#include "batten/io/io.h"
 
 namespace batten::cli {
 
@@ -26,6 +28,11 @@ const Names<Coloring> kColorings{{"error", Coloring::Error},     {"moved", Color
 const Names<View> kViews{{"front", View::Front}, {"back", View::Back}, {"left", View::Left},    {"right", View::Right},
                          {"top", View::Top},     {"iso", View::Iso},   {"bottom", View::Bottom}};
 
+/// What --picture alone gives a meaning, in the verbs that have it.
+const std::vector<std::string> kPictureOptions{"--width",        "--height",      "--samples",
+                                               "--view",         "--turntable",   "--color",
+                                               "--before-after", "--transparent", "--color-moved"};
+
 /// A name, or three numbers with commas.
 std::string read_view(const std::string& words, PictureArguments& picture) {
   if (const auto named = kViews.find(words); named != kViews.end()) {
@@ -44,16 +51,22 @@ std::string read_view(const std::string& words, PictureArguments& picture) {
   return "";
 }
 
+/// Standard output takes one picture.
+void require_picture_files(const CLI::App& verb) {
+  const CLI::Option* picture = verb.get_option_no_throw("--picture");
+  if (picture == nullptr) picture = verb.get_option("--output");
+  for (const std::string& path : picture->results()) {
+    if (is_standard_output(path)) throw UsageError("--turntable: standard output takes one picture; name a file");
+  }
+}
+
 }  // namespace
 
-CLI::Validator has_extension(const std::vector<std::string>& extensions) {
-  return {[extensions](const std::string& name) {
-            std::string words;
-            for (const std::string& extension : extensions) {
-              if (std::filesystem::path(name).extension() == extension) return std::string();
-              words += (words.empty() ? "" : " or ") + extension;
-            }
-            return "'" + name + "' should end in " + words;
+CLI::Validator one_of(const std::vector<std::string>& words) {
+  return {[words](const std::string& word) {
+            if (std::find(words.begin(), words.end(), word) != words.end()) return std::string();
+            const std::string near = suggestion(word, words);
+            return "'" + word + "' is not one of " + CLI::detail::join(words, ", ") + near;
           },
           ""};
 }
@@ -63,20 +76,19 @@ void add_repair_flag(CLI::App& verb, CommonArguments& common) {
 }
 
 void add_input(CLI::App& verb, CommonArguments& common, const std::string& name) {
-  verb.add_option(name, common.input, "mesh file: .obj .ply .off .stl .xyz, or - for standard input")->required();
+  add_input_file(verb, name, common.input, "mesh file: .obj .ply .off .stl .xyz, or - for standard input")->required();
   verb.add_option("--input-format", common.input_format, "the input's type where its name does not tell")
       ->option_text("obj|ply|off|stl|xyz");
   verb.add_option("--threads", common.threads, "use at most so many threads (the result is the same)")
-      ->check(CLI::NonNegativeNumber)
+      ->check(whole_number(0))
       ->option_text("N");
   verb.add_flag("--quiet,-q", common.quiet, "print errors only");
-  verb.add_option("--report", common.report, "write everything that was measured, for a program")
-      ->option_text("FILE.json");
+  add_output_file(verb, "--report", common.report, "write everything that was measured, for a program", {".json"});
 }
 
 void add_output(CLI::App& verb, CommonArguments& common) {
-  verb.add_option("-o,--output", common.output, "file to write; the type follows the extension, - is standard output")
-      ->option_text("FILE");
+  add_output_file(verb, "-o,--output", common.output,
+                  "file to write; the type follows the extension, - is standard output");
   verb.add_option("--output-format", common.output_format, "the output's type where its name does not tell")
       ->option_text("obj|ply|off|stl|xyz|glb|usda");
   verb.add_flag("--ascii", common.ascii, "PLY and STL as text");
@@ -92,11 +104,11 @@ void add_surface(CLI::App& verb, CommonArguments& common) {
   add_choice(verb, "--triangles", common.triangle_rule, kTriangles,
              "Catmull-Clark's weights at triangles; overrules the file");
   verb.add_option("--alpha", common.alpha, "Lai and Cheng's alpha in the first step (Catmull-Clark)")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(number_in(0.0, 1.0))
       ->option_text("0..1");
   verb.add_option("--tension", common.tension,
                   "w of Butterfly's eight points (1/16 if not given) or of Modified Butterfly's ten (0)")
-      ->check(CLI::Range(-1.0, 1.0))
+      ->check(number_in(-1.0, 1.0))
       ->option_text("W");
   add_choice(verb, "--butterfly-boundary", common.butterfly_boundary, kButterflyBoundaries,
              "how Butterfly makes points beside boundaries and creases; reflect is the paper's");
@@ -104,10 +116,12 @@ void add_surface(CLI::App& verb, CommonArguments& common) {
 }
 
 void add_picture_options(CLI::App& verb, PictureArguments& picture) {
-  verb.add_option("--width", picture.width, "pixels")->check(CLI::Range(1, 16384))->capture_default_str();
+  verb.add_option("--width", picture.width, "pixels")->check(whole_number(1, 16384))->capture_default_str();
   verb.add_option("--height", picture.height, "pixels; if not given, a frame of 4:3 or, for two panels, 8:3")
-      ->check(CLI::Range(1, 16384));
-  verb.add_option("--samples", picture.samples, "per pixel and axis")->check(CLI::Range(1, 16))->capture_default_str();
+      ->check(whole_number(1, 16384));
+  verb.add_option("--samples", picture.samples, "per pixel and axis")
+      ->check(whole_number(1, 16))
+      ->capture_default_str();
   verb.add_option_function<std::string>(
           "--view",
           [&](const std::string& words) {
@@ -119,7 +133,7 @@ void add_picture_options(CLI::App& verb, PictureArguments& picture) {
   verb.add_flag("--before-after", picture.before_after, "two panels: the mesh given, and what became of it");
   verb.add_flag("--transparent", picture.transparent, "no background; the shadow is transparent black");
   verb.add_option("--turntable", picture.turntable, "N pictures around it: NAME-000.png, NAME-001.png, ...")
-      ->check(CLI::Range(1, 10000))
+      ->check(whole_number(1, 10000))
       ->option_text("N");
 }
 
@@ -128,9 +142,7 @@ void add_coloring(CLI::App& verb, PictureArguments& picture) {
 }
 
 void add_picture(CLI::App& verb, PictureArguments& picture) {
-  verb.add_option("--picture", picture.path, "draw the result")
-      ->check(has_extension({".png"}))
-      ->option_text("FILE.png");
+  add_output_file(verb, "--picture", picture.path, "draw the result", {".png"});
   add_picture_options(verb, picture);
 }
 
@@ -157,10 +169,21 @@ void add_length(CLI::App& verb, const std::string& name, std::optional<Length>& 
       ->option_text("LENGTH|PERCENT%");
 }
 
-void require_alone(const CLI::App& verb, const std::string& name, const std::vector<std::string>& others) {
-  for (const std::string& other : others) {
-    if (verb.count(other) > 0) throw CLI::ValidationError(name, "leaves nothing for " + other + " to do");
-  }
+void set_run(CLI::App& verb, CommonArguments& common, int& status, const std::function<int()>& run) {
+  verb.callback([&verb, &common, &status, run] {
+    check_files(verb, common);
+    require_with(verb, {"--ascii", "--output-format"}, {"--output"});
+    if (verb.get_option_no_throw("--picture") != nullptr)
+      require_with(verb, kPictureOptions, {"--picture", "--gallery"});
+    if (is_given(verb, "--turntable")) require_picture_files(verb);
+    if (is_given(verb, "--output") && verb.get_option_no_throw("--output-format") != nullptr) {
+      const std::string format = file_format(common.output, common.output_format);
+      if (common.ascii && format != "ply" && format != "stl") {
+        throw UsageError("--ascii does nothing for ." + format + ", only for .ply and .stl");
+      }
+    }
+    status = run();
+  });
 }
 
 }  // namespace batten::cli

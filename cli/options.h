@@ -1,12 +1,15 @@
 /// \file Options that several verbs have, and how the command line's words become values.
 #pragma once
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/arguments.h"
+#include "cli/files.h"
+#include "cli/usage.h"
 
 namespace batten::cli {
 
@@ -14,20 +17,25 @@ namespace batten::cli {
 template <typename Enum>
 using Names = std::map<std::string, Enum>;
 
+/// Accepts the words and suggests the nearest one for others.
+CLI::Validator one_of(const std::vector<std::string>& words);
+
 /// An option whose words stand for an enumerator; the help lists the words.
 template <typename Enum, typename Target>
 void add_choice(CLI::App& verb, const std::string& name, Target& target, const Names<Enum>& names,
                 const std::string& help) {
-  std::string words;
-  for (const auto& entry : names) words += (words.empty() ? "" : "|") + entry.first;
+  std::vector<std::string> words;
+  std::string text;
+  for (const auto& entry : names) {
+    words.push_back(entry.first);
+    text += (text.empty() ? "" : "|") + entry.first;
+  }
   verb.add_option_function<std::string>(
           name, [&target, names](const std::string& word) { target = names.at(word); }, help)
-      ->check(CLI::IsMember(names))
-      ->option_text(words);
+      ->check(one_of(words))
+      ->option_text(text);
 }
 
-/// Refuses other names before any work is done.
-CLI::Validator has_extension(const std::vector<std::string>& extensions);
 void add_repair_flag(CLI::App& verb, CommonArguments& common);
 /// Adds the positional argument for the input file, under the name that the help shows.
 void add_input(CLI::App& verb, CommonArguments& common, const std::string& name = "INPUT");
@@ -39,7 +47,8 @@ void add_coloring(CLI::App& verb, PictureArguments& picture);
 void add_picture(CLI::App& verb, PictureArguments& picture);
 /// Adds an option that takes a number, or a number with a per cent sign: a share of the diagonal.
 void add_length(CLI::App& verb, const std::string& name, std::optional<Length>& target, const std::string& help);
-/// Refuses options that have no meaning beside another one.
-void require_alone(const CLI::App& verb, const std::string& name, const std::vector<std::string>& others);
+/// Lets the verb run `run` once its command line is known to make sense: check_files, and no option that does nothing
+/// for want of another one.
+void set_run(CLI::App& verb, CommonArguments& common, int& status, const std::function<int()>& run);
 
 }  // namespace batten::cli

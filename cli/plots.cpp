@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "batten/error.h"
+#include "batten/output.h"
 #ifdef BATTEN_WITH_RENDER
 #include "batten/render/plot.h"
 #endif
@@ -11,6 +12,12 @@
 namespace batten::cli {
 
 #ifdef BATTEN_WITH_RENDER
+
+/// By the extension; an SVG to what has none, such as standard output.
+static void write(const std::string& path, const Plot& plot) {
+  if (io::is_special_target(path)) return write_bytes(path, encode_svg(plot));
+  write_plot(path, plot);
+}
 
 void plot_residuals(const std::string& path, const std::string& title, const SolveReport& report, double tolerance) {
   Plot plot;
@@ -23,7 +30,7 @@ void plot_residuals(const std::string& path, const std::string& title, const Sol
   line.y = report.residual_history;
   const double last = std::max(1, report.iterations);
   plot.lines = {std::move(line), {"tolerance", {0.0, last}, {tolerance, tolerance}, true}};
-  write_plot(path, plot);
+  write(path, plot);
 }
 
 void plot_methods(const std::string& path, const std::vector<MethodResult>& results, double tolerance) {
@@ -47,7 +54,7 @@ void plot_methods(const std::string& path, const std::vector<MethodResult>& resu
     if (result.report.method != SolveMethod::Direct || !result.failure.empty()) continue;
     plot.lines.push_back({"direct", {0.0, last}, {result.max_error, result.max_error}, true});
   }
-  write_plot(path, plot);
+  write(path, plot);
 }
 
 void plot_bands(const std::string& path, const std::vector<Band>& bands, const std::vector<double>& sizes,
@@ -69,7 +76,7 @@ void plot_bands(const std::string& path, const std::vector<Band>& bands, const s
   plot.lines.push_back(std::move(given));
   if (std::any_of(gains.begin(), gains.end(), [](double gain) { return gain != 1.0; }))
     plot.lines.push_back(std::move(mixed));
-  write_plot(path, plot);
+  write(path, plot);
 }
 
 #else

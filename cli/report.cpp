@@ -2,19 +2,14 @@
 
 #include <fstream>
 
-#include "batten/error.h"
-#include "batten/io/io.h"
+#include "batten/output.h"
 
 namespace batten::cli {
 
 void write_json(const std::string& path, const nlohmann::ordered_json& json) {
   if (path.empty()) return;
-  write_atomically(path, [&](const std::string& temporary) {
-    std::ofstream file(temporary);
-    file << json.dump(2) << '\n';
-    file.flush();
-    if (!file) throw Error(ErrorCode::FileNotWritable, path + ": the report could not be written");
-  });
+  const std::string text = json.dump(2) + '\n';
+  write_bytes(path, Buffer<unsigned char>(text.begin(), text.end()));
 }
 
 nlohmann::ordered_json repairs_json(const RepairResult& repaired) {

@@ -1,8 +1,10 @@
 #include "cli/verbs.h"
 
 #include <array>
+#include <limits>
 #include <sstream>
 
+#include "batten/io/io.h"
 #include "cli/options.h"
 
 namespace batten::cli {
@@ -49,12 +51,13 @@ std::string read_colors(const std::string& words, std::vector<std::array<double,
 void add_noise(CLI::App& verb, TextureArguments& arguments) {
   PresetOptions& noise = arguments.noise;
   verb.add_option("--seed", noise.seed, "another number, another texture; the same number, the same texture")
+      ->check(whole_number(0, std::numeric_limits<long long>::max()))
       ->capture_default_str();
   verb.add_option("--frequency", noise.frequency, "features along the bounding box's diagonal")
-      ->check(CLI::Range(1e-3, 1e6));
-  verb.add_option("--octaves", noise.octaves, "finer and finer noises to add up")->check(CLI::Range(1, 24));
+      ->check(number_in(1e-3, 1e6));
+  verb.add_option("--octaves", noise.octaves, "finer and finer noises to add up")->check(whole_number(1, 24));
   verb.add_option("--gain", noise.gain, "strength of each octave, of the one before; the more, the rougher")
-      ->check(CLI::Range(0.0, 4.0));
+      ->check(number_in(0.0, 4.0));
   verb.add_option_function<std::string>(
           "--colors",
           [&arguments](const std::string& words) {
@@ -63,6 +66,21 @@ void add_noise(CLI::App& verb, TextureArguments& arguments) {
           },
           "the colours to go through, evenly spaced")
       ->option_text("RRGGBB,RRGGBB,...");
+}
+
+/// Refuses what the kind of output leaves without an effect, and frames that would replace an input.
+void check_morph(const CLI::App& verb, const MorphArguments& arguments) {
+  const CommonArguments& common = arguments.common;
+  const bool animated = !common.output.empty() && file_format(common.output, common.output_format) == "glb";
+  if (!animated) {
+    for (const char* option : {"--seconds", "--levels"}) {
+      if (is_given(verb, option)) throw UsageError(std::string(option) + " does nothing without a .glb to write");
+    }
+  }
+  require_with(verb, {"--no-align"}, {"--rho"});
+  if (arguments.rho) require_alone(verb, "--rho", {"--order", "--stages"});
+  if (common.output.empty() || animated || arguments.at) return;
+  check_numbered_files(verb, common.output, arguments.frames < 0 ? kMorphFrames : arguments.frames);
 }
 
 }  // namespace
@@ -77,16 +95,16 @@ void add_denoise(CLI::App& app, DenoiseArguments& arguments, int& status) {
       verb.add_flag("--auto", options.automatic, "measure the noise, and smooth as much as takes it away");
   CLI::Option* strength =
       verb.add_option("--strength", arguments.strength, "how long a bump may be, in edge lengths, and still vanish")
-          ->check(CLI::Range(2.0, 1000.0))
+          ->check(number_in(2.0, 1000.0))
           ->option_text("EDGES")
           ->excludes(automatic);
   verb.add_option("--passes", options.passes, "how often to smooth, instead of a strength")
-      ->check(CLI::Range(0, 1000000))
+      ->check(whole_number(0, 1000000))
       ->capture_default_str()
       ->excludes(automatic)
       ->excludes(strength);
   verb.add_option("-m", options.m, "the larger, the sharper between noise and shape: a pass keeps m + 1 terms")
-      ->check(CLI::Range(0, 100))
+      ->check(whole_number(0, 100))
       ->capture_default_str()
       ->excludes(automatic);
   add_series(verb, options.matrix);
@@ -99,11 +117,14 @@ void add_denoise(CLI::App& app, DenoiseArguments& arguments, int& status) {
             options.feature_options.degrees = degrees;
           },
           "find edges that are sharper than this, and smooth along them only, as along creases")
-      ->check(CLI::Range(1.0, 179.0))
+      ->check(number_in(1.0, 179.0))
       ->option_text("DEGREES");
   add_picture(verb, arguments.picture);
   add_color_moved(verb, arguments.picture);
-  verb.callback([&] { status = run_denoise(arguments); });
+  set_run(verb, arguments.common, status, [&] {
+    require_output(verb);
+    return run_denoise(arguments);
+  });
 }
 
 void add_sharpen(CLI::App& app, SharpenArguments& arguments, int& status) {
@@ -113,18 +134,18 @@ void add_sharpen(CLI::App& app, SharpenArguments& arguments, int& status) {
   add_surface(verb, arguments.common);
   SharpenOptions& options = arguments.options;
   verb.add_option("--amount", options.amount, "of the detail that a pass adds")
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(number_in(0.0, 1e6))
       ->capture_default_str();
-  verb.add_option("--passes", options.passes, "how often")->check(CLI::Range(0, 1000))->capture_default_str();
+  verb.add_option("--passes", options.passes, "how often")->check(whole_number(0, 1000))->capture_default_str();
   verb.add_option("-m", options.m, "first term that is added: the larger, the finer the detail that grows")
-      ->check(CLI::Range(1, 1000))
+      ->check(whole_number(1, 1000))
       ->capture_default_str();
   verb.add_option("-n", options.n, "last term that is added, -m or more")
-      ->check(CLI::Range(1, 1000))
+      ->check(whole_number(1, 1000))
       ->capture_default_str();
   verb.add_option("--most-growth", options.most_growth,
                   "no detail becomes larger than so many times; the amount is lowered for it")
-      ->check(CLI::Range(1.0, 1e9))
+      ->check(number_in(1.0, 1e9))
       ->capture_default_str();
   add_series(verb, options.matrix);
   verb.add_flag("--keep-boundary", options.keep_boundary, "leave boundary vertices where they are");
@@ -132,7 +153,10 @@ void add_sharpen(CLI::App& app, SharpenArguments& arguments, int& status) {
       "--no-check", [&options] { options.check = false; }, "do not look for faces that pass through each other");
   add_picture(verb, arguments.picture);
   add_color_moved(verb, arguments.picture);
-  verb.callback([&] { status = run_sharpen(arguments); });
+  set_run(verb, arguments.common, status, [&] {
+    require_output(verb);
+    return run_sharpen(arguments);
+  });
 }
 
 void add_bands(CLI::App& app, BandsArguments& arguments, int& status) {
@@ -141,7 +165,7 @@ void add_bands(CLI::App& app, BandsArguments& arguments, int& status) {
   add_output(verb, arguments.common);
   add_surface(verb, arguments.common);
   CLI::Option* count = verb.add_option("--count", arguments.count, "of bands; each has bumps twice as long as the last")
-                           ->check(CLI::Range(2, 12))
+                           ->check(whole_number(2, 12))
                            ->capture_default_str();
   verb.add_option("--gains", arguments.gains, "how strong each band comes out, finest first: one number a band")
       ->delimiter(',')
@@ -151,12 +175,14 @@ void add_bands(CLI::App& app, BandsArguments& arguments, int& status) {
   verb.add_flag("--keep-boundary", arguments.keep_boundary, "leave boundary vertices where they are");
   verb.add_flag("--displacements", arguments.displacements,
                 "write every band too, as attributes band_1, band_2, ... of three numbers a vertex (PLY)");
-  verb.add_option("--plot", arguments.plot, "plot the bands' sizes")
-      ->check(has_extension({".png", ".svg"}))
-      ->option_text("FILE.png|.svg");
+  add_output_file(verb, "--plot", arguments.plot, "plot the bands' sizes", {".png", ".svg"});
   add_picture(verb, arguments.picture);
   add_color_moved(verb, arguments.picture);
-  verb.callback([&] { status = run_bands(arguments); });
+  set_run(verb, arguments.common, status, [&] {
+    require_output(verb);
+    require_with(verb, {"--displacements"}, {"--output"});
+    return run_bands(arguments);
+  });
 }
 
 void add_texture(CLI::App& app, TextureArguments& arguments, int& status) {
@@ -168,30 +194,31 @@ void add_texture(CLI::App& app, TextureArguments& arguments, int& status) {
   add_noise(verb, arguments);
   CLI::Option* levels =
       verb.add_option("--levels", arguments.levels, "refinement; as many as make some 400,000 faces, if not given")
-          ->check(CLI::Range(0, 12));
+          ->check(whole_number(0, 12));
   verb.add_flag("--flat", arguments.flat, "colour the mesh as it is, not its limit surface")->excludes(levels);
   add_length(verb, "--displace", arguments.displace,
              "also move the surface along its normals by so much times the noise");
-  verb.add_option("--gallery", arguments.gallery, "draw all presets side by side")
-      ->check(has_extension({".png"}))
-      ->option_text("FILE.png");
+  add_output_file(verb, "--gallery", arguments.gallery, "draw all presets side by side", {".png"});
   add_picture(verb, arguments.picture);
-  verb.callback([&] { status = run_texture(arguments); });
+  set_run(verb, arguments.common, status, [&] {
+    require_output(verb);
+    return run_texture(arguments);
+  });
 }
 
 void add_morph(CLI::App& app, MorphArguments& arguments, int& status) {
   CLI::App& verb =
       *app.add_subcommand("morph", "from one mesh to another of the same connectivity, in frames or a GLB");
   add_input(verb, arguments.common, "FROM");
-  verb.add_option("TO", arguments.target, "mesh file, with the same faces or with --resample")->required();
+  add_input_file(verb, "TO", arguments.target, "mesh file, with the same faces or with --resample")->required();
   add_output(verb, arguments.common);
   add_surface(verb, arguments.common);
   CLI::Option* frames = verb.add_option("--frames", arguments.frames,
                                         "so many files, NAME-000, NAME-001, ...; 11 if not given. In a .glb "
                                         "key frames of one animation, 24")
-                            ->check(CLI::Range(2, 100000));
+                            ->check(whole_number(2, 100000));
   verb.add_option("--at", arguments.at, "one file: how it is at this time; 0 is FROM, 1 is TO")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(number_in(0.0, 1.0))
       ->option_text("0..1")
       ->excludes(frames);
   add_choice(verb, "--order", arguments.options.order, kOrders,
@@ -199,26 +226,30 @@ void add_morph(CLI::App& app, MorphArguments& arguments, int& status) {
   verb.add_option(
           "--stages", arguments.options.stages,
           "how far overall shape and detail are apart in time; each takes four times the work; 0: straight lines")
-      ->check(CLI::Range(0, 8))
+      ->check(whole_number(0, 8))
       ->capture_default_str();
   verb.add_option("--terms", arguments.options.m,
                   "terms of the mesh series after the first in a smoothing; Lai and Cheng's m")
-      ->check(CLI::Range(0, 1000))
+      ->check(whole_number(0, 1000))
       ->capture_default_str();
   verb.add_option("--rho", arguments.rho, "Lai and Cheng's own sequence, which comes near to TO so fast")
-      ->check(CLI::Range(1e-6, 1.0))
+      ->check(number_in(1e-6, 1.0))
       ->option_text("0..1");
   verb.add_flag_callback(
       "--no-align", [&] { arguments.align = false; }, "with --rho: do not lay the centroids on each other first");
   verb.add_option("--seconds", arguments.seconds, "how long a .glb's animation is")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
   verb.add_option("--levels", arguments.levels,
                   "refinement of a .glb's surface; 3 if not given, fewer for a large mesh")
-      ->check(CLI::Range(0, 12));
+      ->check(whole_number(0, 12));
   verb.add_flag("--resample", arguments.resample, "give TO's surface the faces of FROM first; both must lie close");
   add_picture(verb, arguments.picture);
-  verb.callback([&] { status = run_morph(arguments); });
+  set_run(verb, arguments.common, status, [&] {
+    require_output(verb);
+    check_morph(verb, arguments);
+    return run_morph(arguments);
+  });
 }
 
 }  // namespace batten::cli

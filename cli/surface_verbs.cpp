@@ -22,12 +22,12 @@ void add_adaptive(CLI::App& verb, SubdivideArguments& arguments) {
              "as few faces as stay so near to the limit surface, in the mesh's unit or in % of the diagonal");
   add_length(verb, "--edge-length", arguments.edge_length, "as few faces as have no longer edge");
   verb.add_option("--angle", arguments.angle, "as few faces as turn by no more than so many degrees each")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->option_text("DEGREES");
   add_choice(verb, "--faces", arguments.faces, kFaces,
              "with a bound: what to make; quads for Catmull-Clark and triangles for Loop, if not given");
   verb.add_option("--max-faces", arguments.max_faces, "with a bound: stop with an error beyond so many; 20 million")
-      ->check(CLI::PositiveNumber)
+      ->check(whole_number(1))
       ->option_text("N");
 }
 
@@ -44,25 +44,28 @@ void add_interpolate(CLI::App& app, InterpolateArguments& arguments, int& status
   InterpolateOptions& options = arguments.options;
   add_choice(verb, "--method", options.method, kMethods, "how to solve; jacobi is Thall's, richardson Lai and Cheng's");
   verb.add_option("--tolerance", options.tolerance, "largest miss, of the bounding box's diagonal")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
-  verb.add_option("--omega", options.omega, "damping of jacobi")->check(CLI::PositiveNumber)->capture_default_str();
+  verb.add_option("--omega", options.omega, "damping of jacobi")->check(positive_number())->capture_default_str();
   verb.add_option("--max-iterations", options.max_iterations, "give up after so many")
-      ->check(CLI::PositiveNumber)
+      ->check(whole_number(1))
       ->capture_default_str();
   add_choice(verb, "--on-singular", options.on_singular, kOnSingular,
              "where no surface passes through such points; alpha if not given");
   add_choice(verb, "--limit-masks", options.masks, kMasks, "exact at darts and valence 2, or OpenSubdiv's masks there");
   verb.add_flag("--compare-methods", arguments.compare_methods,
                 "solve by the papers' iterations and a direct solver too, and print (and plot) how they did");
-  verb.add_option("--plot", arguments.plot, "plot the residual against the iteration")
-      ->check(has_extension({".png", ".svg"}))
-      ->option_text("FILE.png|.svg");
+  add_output_file(verb, "--plot", arguments.plot, "plot the residual against the iteration", {".png", ".svg"});
   verb.add_option("--levels", arguments.levels,
                   "write the limit surface refined so often, instead of the control mesh (.glb: always; 3 times "
                   "if not given, fewer for a large mesh)")
-      ->check(CLI::Range(0, 12));
-  verb.callback([&] { status = run_interpolate(arguments); });
+      ->check(whole_number(0, 12));
+  set_run(verb, arguments.common, status, [&] {
+    require_output(verb, {"--compare-methods"});
+    require_with(verb, {"--levels"}, {"--output"});
+    if (arguments.options.method != SolveMethod::Jacobi) require_with(verb, {"--omega"}, {"--compare-methods"});
+    return run_interpolate(arguments);
+  });
 }
 
 void add_subdivide(CLI::App& app, SubdivideArguments& arguments, int& status) {
@@ -71,61 +74,70 @@ void add_subdivide(CLI::App& app, SubdivideArguments& arguments, int& status) {
   add_output(verb, arguments.common);
   add_surface(verb, arguments.common);
   verb.add_option("--levels", arguments.levels, "how often, once if not given; with a bound: at most so often")
-      ->check(CLI::Range(0, 16));
+      ->check(whole_number(0, 16));
   verb.add_flag("--limit", arguments.limit, "then move the vertices to the limit surface, with its normals");
   add_adaptive(verb, arguments);
   verb.add_flag("--compare", arguments.compare,
                 "measure how fair Butterfly, Modified Butterfly and the interpolated Loop and Catmull-Clark surfaces "
                 "of a triangle mesh are; --picture draws them side by side by their mean curvature");
   add_picture(verb, arguments.picture);
-  verb.callback([&verb, &arguments, &status] {
+  set_run(verb, arguments.common, status, [&] {
+    require_output(verb, {"--compare"});
     if (arguments.compare) {
       require_alone(verb, "--compare",
                     {"--output", "--scheme", "--tension", "--limit", "--chord", "--edge-length", "--angle", "--faces",
                      "--max-faces"});
-      status = run_compare_schemes(arguments);
-      return;
+      return run_compare_schemes(arguments);
     }
-    if (!arguments.adaptive() && (arguments.faces || arguments.max_faces)) {
-      throw CLI::ValidationError(arguments.faces ? "--faces" : "--max-faces",
-                                 "needs a bound: --chord, --edge-length or --angle");
+    require_with(verb, {"--faces", "--max-faces"}, {"--chord", "--edge-length", "--angle"});
+    if (!arguments.adaptive()) {
+      if (arguments.levels > 12) throw UsageError("--levels: at most 12 without a bound");
+      return run_subdivide(arguments);
     }
-    if (!arguments.adaptive() && arguments.levels > 12) {
-      throw CLI::ValidationError("--levels", "at most 12 without a bound");
-    }
-    status = arguments.adaptive() ? run_adaptive(arguments) : run_subdivide(arguments);
+    require_alone(verb, "a bound", {"--limit"});
+    return run_adaptive(arguments);
   });
 }
 
 void add_render(CLI::App& app, RenderArguments& arguments, int& status) {
   CLI::App& verb = *app.add_subcommand("render", "draw a mesh's subdivision surface");
   add_input(verb, arguments.common);
-  verb.add_option("-o,--output", arguments.common.output, "picture to write")->required()->option_text("FILE.png");
+  add_output_file(verb, "-o,--output", arguments.common.output, "picture to write", {".png"})->required();
   add_surface(verb, arguments.common);
   verb.add_option("--levels", arguments.levels, "refinement; as many as make it smooth, if not given")
-      ->check(CLI::Range(0, 12));
+      ->check(whole_number(0, 12));
   add_picture_options(verb, arguments.picture);
   add_coloring(verb, arguments.picture);
-  verb.add_option("--targets", arguments.targets, "for --color error: the mesh whose vertices it should pass through")
-      ->option_text("FILE");
+  add_input_file(verb, "--targets", arguments.targets,
+                 "for --color error: the mesh whose vertices it should pass through");
   verb.add_flag("--flat", arguments.flat, "draw the mesh as it is");
   verb.add_flag("--control", arguments.control, "with the control mesh as lines");
   verb.add_flag("--points", arguments.points, "with the vertices' limit positions");
-  verb.callback([&] { status = run_render(arguments); });
+  set_run(verb, arguments.common, status, [&] {
+    if (arguments.picture.coloring != Coloring::Error && is_given(verb, "--targets"))
+      throw UsageError("--targets does nothing without --color error");
+    if (arguments.flat) {
+      require_alone(verb, "--flat",
+                    {"--levels", "--scheme", "--boundary", "--creases", "--triangles", "--alpha", "--tension",
+                     "--butterfly-boundary"});
+    }
+    return run_render(arguments);
+  });
 }
 
 void add_distance(CLI::App& app, DistanceArguments& arguments, int& status) {
   CLI::App& verb = *app.add_subcommand("distance", "how far points lie from the limit surface of a mesh");
-  verb.add_option("SCAN", arguments.scan, "its vertices are measured: .obj .ply .off .stl .xyz")->required();
+  add_input_file(verb, "SCAN", arguments.scan, "its vertices are measured: .obj .ply .off .stl .xyz")->required();
   add_input(verb, arguments.common, "SURFACE");
-  verb.add_option("-o,--output", arguments.common.output,
-                  "write the scan with each point's distance, as the property \"distance\"")
-      ->check(has_extension({".ply"}))
-      ->option_text("FILE.ply");
+  add_output_file(verb, "-o,--output", arguments.common.output,
+                  "write the scan with each point's distance, as the property \"distance\"", {".ply"});
   verb.add_flag("--ascii", arguments.common.ascii, "PLY as text");
   add_surface(verb, arguments.common);
   add_picture(verb, arguments.picture);
-  verb.callback([&] { status = run_distance(arguments); });
+  set_run(verb, arguments.common, status, [&] {
+    arguments.common.output_format = "ply";
+    return run_distance(arguments);
+  });
 }
 
 void add_repair(CLI::App& app, RepairArguments& arguments, int& status) {
@@ -136,12 +148,15 @@ void add_repair(CLI::App& app, RepairArguments& arguments, int& status) {
   CLI::Option* weld =
       verb.add_option("--weld", arguments.options.weld,
                       "weld open edges that lie so near, of the bounding box's diagonal; 0: equal points")
-          ->check(CLI::Range(0.0, 1.0))
+          ->check(number_in(0.0, 1.0))
           ->capture_default_str();
   verb.add_flag_callback(
           "--no-weld", [&] { arguments.options.weld = -1.0; }, "weld nothing")
       ->excludes(weld);
-  verb.callback([&] { status = run_repair(arguments); });
+  set_run(verb, arguments.common, status, [&] {
+    require_output(verb);
+    return run_repair(arguments);
+  });
 }
 
 }  // namespace batten::cli

@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 
 namespace batten::cli {
 
+std::FILE* text_stream(const CommonArguments& arguments) { return arguments.text_to_stderr ? stderr : stdout; }
+
 void Table::print(const CommonArguments& arguments) const {
   if (arguments.quiet) return;
-  std::FILE* out = arguments.output == "-" ? stderr : stdout;
+  std::FILE* out = text_stream(arguments);
   std::size_t width = 0;
   for (const auto& row : rows_) width = std::max(width, row.first.size());
   for (const auto& row : rows_) fmt::print(out, "{:<{}}  {}\n", row.first, width, row.second);

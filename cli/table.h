@@ -1,5 +1,6 @@
 /// \file The short table that a verb prints.
 #pragma once
+#include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,11 +10,14 @@
 
 namespace batten::cli {
 
+/// Where text for a person goes: stdout, or stderr where an output takes stdout.
+std::FILE* text_stream(const CommonArguments& arguments);
+
 /// A short table for a person: left column names, right column facts.
 class Table {
  public:
   void add(const std::string& name, const std::string& fact) { rows_.emplace_back(name, fact); }
-  /// Prints to stdout, or to stderr where the mesh itself goes to stdout.
+  /// Prints to text_stream, unless --quiet.
   void print(const CommonArguments& arguments) const;
 
  private:

@@ -1,0 +1,164 @@
+#include "cli/usage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace batten::cli {
+
+namespace {
+
+/// The letters to change, insert, drop or swap with their neighbour (optimal string alignment).
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::vector<std::size_t>> table(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) {
+    for (std::size_t j = 0; j <= b.size(); ++j) {
+      if (i == 0 || j == 0) {
+        table[i][j] = i + j;
+        continue;
+      }
+      const std::size_t change = a[i - 1] == b[j - 1] ? 0 : 1;
+      table[i][j] = std::min({table[i - 1][j] + 1, table[i][j - 1] + 1, table[i - 1][j - 1] + change});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+        table[i][j] = std::min(table[i][j], table[i - 2][j - 2] + 1);
+      }
+    }
+  }
+  return table[a.size()][b.size()];
+}
+
+std::vector<std::string> verb_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names.push_back(verb->get_name());
+  }
+  return names;
+}
+
+std::vector<std::string> option_names(const CLI::App& verb) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : verb.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+bool is_option(const std::string& word) { return word.size() > 1 && word[0] == '-'; }
+
+std::string unknown_option_text(const CLI::App& verb, const std::string& word) {
+  const std::string name = word.substr(0, word.find('='));
+  const std::string dashes = name[1] == '-' ? "" : "-";  // -levels stands for --levels
+  return name + ": " + verb.get_display_name() + " has no such option" + suggestion(dashes + name, option_names(verb));
+}
+
+std::string no_verb_text(const CLI::App& app, const std::vector<std::string>& left) {
+  std::string all;
+  for (const std::string& name : verb_names(app)) all += (all.empty() ? "" : ", ") + name;
+  if (left.empty()) return "name a verb: " + all;
+  if (is_option(left.front())) return unknown_option_text(app, left.front());
+  const std::string near = suggestion(left.front(), verb_names(app));
+  return "'" + left.front() + "' is not a verb" + (near.empty() ? "; name one of " + all : near);
+}
+
+/// CLI11 speaks of numbers of arguments; people leave a value out or give an option twice.
+std::string mismatch_text(const CLI::ParseError& error) {
+  const std::string text = error.what();
+  const std::string option = text.substr(0, text.find(':'));
+  return option + (text.find("missing") != std::string::npos ? " needs a value" : " is given more than once");
+}
+
+/// True if the whole text is a number.
+template <typename Number>
+bool read(const std::string& text, Number& number) {
+  std::istringstream stream(text);
+  return static_cast<bool>(stream >> number) && stream.peek() == std::istringstream::traits_type::eof();
+}
+
+}  // namespace
+
+std::string nearest_word(const std::string& word, const std::vector<std::string>& words) {
+  std::string nearest;
+  std::size_t least = word.size() / 3 + 1;
+  for (const std::string& other : words) {
+    const bool starts = word.size() > 2 && word != "--" && other.rfind(word, 0) == 0;
+    const std::size_t distance = starts ? 0 : edit_distance(word, other);
+    if (distance >= least) continue;
+    nearest = other;
+    least = distance;
+  }
+  return nearest;
+}
+
+std::string suggestion(const std::string& word, const std::vector<std::string>& words) {
+  const std::string near = nearest_word(word, words);
+  return near.empty() ? "" : " (did you mean " + near + "?)";
+}
+
+std::string usage_text(const CLI::App& app, const CLI::ParseError& error) {
+  const std::vector<CLI::App*> parsed = app.get_subcommands();
+  if (parsed.empty()) return no_verb_text(app, app.remaining());
+  const CLI::App& verb = *parsed.front();
+  const std::vector<std::string> left = verb.remaining();
+  // The value of an unknown option is taken for a file, so the option is what is wrong.
+  const auto unknown = std::find_if(left.begin(), left.end(), is_option);
+  if (unknown != left.end()) return unknown_option_text(verb, *unknown);
+  if (!left.empty()) return "'" + left.front() + "': " + verb.get_name() + " takes no further file";
+  return error.get_name() == "ArgumentMismatch" ? mismatch_text(error) : error.what();
+}
+
+bool is_given(const CLI::App& verb, const std::string& option) {
+  const CLI::Option* found = verb.get_option_no_throw(option);
+  return found != nullptr && found->count() > 0;
+}
+
+void require_alone(const CLI::App& verb, const std::string& name, const std::vector<std::string>& others) {
+  for (const std::string& other : others) {
+    if (is_given(verb, other)) throw UsageError(other + " does nothing with " + name + "; leave one of them out");
+  }
+}
+
+void require_with(const CLI::App& verb, const std::vector<std::string>& options,
+                  const std::vector<std::string>& needed) {
+  const auto given = [&](const std::string& option) { return is_given(verb, option); };
+  if (std::any_of(needed.begin(), needed.end(), given)) return;
+  std::string names;
+  for (const std::string& name : needed) names += (names.empty() ? "" : " or ") + name;
+  for (const std::string& option : options) {
+    if (given(option)) throw UsageError(option + " does nothing without " + names);
+  }
+}
+
+CLI::Validator whole_number(long long low, long long high) {
+  const bool open = high >= std::numeric_limits<int>::max();
+  const std::string words = open ? fmt::format("{} or more", low) : fmt::format("{} to {}", low, high);
+  return {[low, high, words](const std::string& text) {
+            long long number = 0;
+            if (read(text, number) && number >= low && number <= high) return std::string();
+            return "'" + text + "' is not a whole number (" + words + ")";
+          },
+          words};
+}
+
+CLI::Validator number_in(double low, double high) {
+  const std::string words = fmt::format("{:.12g} to {:.12g}", low, high);
+  return {[low, high, words](const std::string& text) {
+            double number = 0.0;
+            if (read(text, number) && number >= low && number <= high) return std::string();
+            return "'" + text + "' is not a number from " + words;
+          },
+          words};
+}
+
+CLI::Validator positive_number() {
+  return {[](const std::string& text) {
+            double number = 0.0;
+            if (read(text, number) && number > 0.0 && std::isfinite(number)) return std::string();
+            return "'" + text + "' is not a number above 0";
+          },
+          "above 0"};
+}
+
+}  // namespace batten::cli

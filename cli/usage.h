@@ -1,0 +1,42 @@
+/// \file What is said of a wrong command line: in words, with the nearest right word.
+#pragma once
+#include <CLI/CLI.hpp>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "cli/usage_error.h"
+
+namespace batten::cli {
+
+/// The word that `word` most likely stands for: the start of one, or the one with the fewest letters to change, insert,
+/// drop or swap, at most a third of them. Empty if none is near.
+std::string nearest_word(const std::string& word, const std::vector<std::string>& words);
+
+/// " (did you mean WORD?)", or nothing if no word is near.
+std::string suggestion(const std::string& word, const std::vector<std::string>& words);
+
+/// One line on what is wrong with the words that `app` could not parse.
+std::string usage_text(const CLI::App& app, const CLI::ParseError& error);
+
+/// Refuses options that have no meaning beside another one.
+void require_alone(const CLI::App& verb, const std::string& name, const std::vector<std::string>& others);
+
+/// Refuses each of the options that is given while none of `needed` is. Options that the verb lacks do not count.
+void require_with(const CLI::App& verb, const std::vector<std::string>& options,
+                  const std::vector<std::string>& needed);
+
+/// True if the verb has the option and it is given.
+bool is_given(const CLI::App& verb, const std::string& option);
+
+/// Accepts whole numbers in the range and says in words what is wrong with others. No upper end is told where it is the
+/// largest int.
+CLI::Validator whole_number(long long low, long long high = std::numeric_limits<int>::max());
+
+/// Accepts numbers in the range; NaN is none.
+CLI::Validator number_in(double low, double high);
+
+/// Accepts finite numbers above 0.
+CLI::Validator positive_number();
+
+}  // namespace batten::cli

@@ -1,0 +1,113 @@
+/// What the tool refuses to write over, and what goes to standard output.
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "cli/tool.h"
+
+namespace batten::cli_tests {
+namespace {
+
+class Files : public Tool {
+ protected:
+  void SetUp() override {
+    Tool::SetUp();
+    fs::copy_file(kModels + "tetrahedron.obj", path("mesh.obj"));
+    fs::copy_file(kModels + "tetrahedron.obj", path("mesh-001.obj"));
+    fs::create_symlink(path("mesh.obj"), path("link.obj"));
+    fs::create_hard_link(path("mesh.obj"), path("hard.obj"));
+    fs::create_directory(path("folder.obj"));
+    fs::create_directory_symlink(folder_, path("here"));
+    before_ = text_of(path("mesh.obj"));
+  }
+
+  /// The command must be refused in one line that has `part`, with this exit code, and change no model.
+  void expect_refused(const std::string& command, const std::string& part, int status = 2) const {
+    const Outcome result = run(command);
+    EXPECT_EQ(result.status, status) << command << "\n" << result.err;
+    EXPECT_NE(result.err.find(part), std::string::npos) << command << "\n" << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << command << "\n" << result.err;
+    EXPECT_EQ(result.err.rfind("batten: ", 0), 0U) << result.err;
+    EXPECT_EQ(text_of(path("mesh.obj")), before_) << command;
+    EXPECT_EQ(text_of(path("mesh-001.obj")), before_) << command;
+  }
+
+  std::string before_;
+};
+
+TEST_F(Files, AnOutputThatIsAnInputIsRefused) {
+  const std::string why = "is the file to read";
+  for (const char* name : {"mesh.obj", "./mesh.obj", "link.obj", "hard.obj", "here/mesh.obj"}) {
+    expect_refused(std::string("subdivide mesh.obj -o ") + name, why);
+    expect_refused(std::string("repair ") + name + " -o mesh.obj", why);
+  }
+  expect_refused("morph mesh-001.obj mesh.obj -o mesh.obj --at 0.5", why);
+  write("scan.ply", "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nend_header\n");
+  expect_refused("distance scan.ply mesh.obj -o scan.ply", why);
+  expect_refused("convert - --input-format obj -o mesh.obj < mesh.obj", why);
+}
+
+TEST_F(Files, AFrameThatIsAnInputIsRefused) {
+  expect_refused("morph mesh-001.obj mesh.obj -o mesh.obj --frames 3", "is the file to read");
+  expect_refused("morph mesh-001.obj mesh.obj -o here/mesh.obj --frames 3", "is the file to read");
+  fs::create_directory(path("b"));
+  fs::create_hard_link(path("mesh-001.obj"), path("b/mesh-001.obj"));
+  expect_refused("morph b/mesh-001.obj mesh.obj -o b/mesh.obj --frames 3", "a frame would replace");
+  EXPECT_EQ(run("morph b/mesh-001.obj mesh.obj -o b/mesh.ply --frames 3").status, 0);
+}
+
+TEST_F(Files, OutputsOfAnotherTypeAreRefusedAndNothingIsDone) {
+  const std::string part = "should end in ";
+  for (const char* option : {"--picture", "--report", "--plot"}) {
+    expect_refused(std::string("interpolate mesh.obj -o out.obj ") + option + " mesh.obj", part);
+    expect_refused(std::string("interpolate mesh.obj -o out.obj ") + option + " new.txt", part);
+    expect_refused(std::string("interpolate mesh.obj -o out.obj ") + option + " none", part);
+  }
+  expect_refused("texture mesh.obj --gallery mesh.obj", part);
+  expect_refused("render mesh.obj -o mesh.obj", part);
+  expect_refused("distance mesh.obj mesh.obj -o mesh.obj", part);
+  expect_refused("info mesh.obj --report mesh.obj", part);
+  expect_refused("subdivide mesh.obj -o out.abc", "the file type 'abc' is unknown", 1);
+  EXPECT_FALSE(fs::exists(path("out.obj")));
+}
+
+TEST_F(Files, TwoOutputsHaveTwoNames) {
+  expect_refused("texture mesh.obj --gallery a.png --picture ./a.png", "is what --");
+  expect_refused("convert mesh.obj -o - --output-format obj --report -", "is what --");
+  expect_refused("render mesh.obj -o - --turntable 2", "one picture");
+}
+
+TEST_F(Files, AFolderIsCalledAFolder) {
+  const std::string part = "it is a folder; name a file in it";
+  expect_refused("info folder.obj", part, 1);
+  expect_refused("info here", part, 1);
+  expect_refused("distance here mesh.obj", part, 1);
+  expect_refused("render mesh.obj --color error --targets here -o a.png", part, 1);
+  expect_refused("interpolate mesh.obj -o a.obj --report here", "should end in .json", 2);
+  fs::create_directory(path("folder.json"));
+  expect_refused("interpolate mesh.obj -o a.obj --report folder.json", part, 1);
+  EXPECT_FALSE(fs::exists(path("a.obj")));
+}
+
+TEST_F(Files, EveryOutputGoesToStandardOutput) {
+  const std::string small = " --width 64 --height 48 --samples 1";
+  const Outcome report = run("interpolate mesh.obj --report -");
+  EXPECT_EQ(nlohmann::json::parse(report.out)["verb"], "interpolate");
+  EXPECT_NE(report.err.find("max error"), std::string::npos) << report.err;
+  EXPECT_EQ(run("render mesh.obj -o -" + small).out.substr(1, 3), "PNG");
+  EXPECT_EQ(run("subdivide mesh.obj --picture -" + small).out.substr(1, 3), "PNG");
+  EXPECT_EQ(run("texture mesh.obj --levels 1 --gallery -" + small).out.substr(1, 3), "PNG");
+  EXPECT_NE(run("interpolate mesh.obj --compare-methods --plot -").out.find("</svg>"), std::string::npos);
+  EXPECT_EQ(run("distance mesh.obj mesh.obj -o -").out.rfind("ply\n", 0), 0U);
+  const Outcome compared = run("subdivide mesh.obj --compare --levels 1 --report -");
+  EXPECT_EQ(nlohmann::json::parse(compared.out)["compared"].size(), 4U);
+  EXPECT_FALSE(fs::exists(path("-")));
+}
+
+TEST_F(Files, ADeviceMayHaveAnyName) {
+  EXPECT_EQ(run("interpolate mesh.obj --report /dev/null --quiet").status, 0);
+  const Outcome pipe = run("info mesh.obj --report /dev/stdout");
+  EXPECT_EQ(nlohmann::json::parse(pipe.out)["vertices"], 4);
+}
+
+}  // namespace
+}  // namespace batten::cli_tests
