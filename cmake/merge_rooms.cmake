@@ -1,5 +1,5 @@
-# With BATTEN_MERGE_ROOMS the sources of a room are compiled as one, which takes a third of the time; for builds that are made
-# once and thrown away. Sources with compile options of their own stay alone.
+# With BATTEN_MERGE_ROOMS the sources of a room, or the tests of one, are compiled as one, which takes a third of the time; for
+# builds that are made once and thrown away. Within a room no two sources may therefore give one name to two things. Sources with compile options of their own stay alone.
 function(batten_merge_rooms target)
   if(NOT BATTEN_MERGE_ROOMS)
     return()

@@ -38,10 +38,12 @@ struct Named {
   Operation run;
 };
 
-/// The operations on a mesh large enough for several blocks.
+/// The operations, each on a mesh large enough for several blocks.
 std::vector<Named> operations(const io_tests::TemporaryFolder& folder) {
-  static const Mesh mesh = torus(300, 200);
+  static const Mesh mesh = torus(150, 100);
   static const Topology topology(mesh);
+  static const Mesh small = torus(48, 32);
+  static const Topology small_topology(small);
   static const Scheme scheme;
   static const Interpolator interpolator(topology, scheme);
   std::vector<Named> all{
@@ -70,22 +72,24 @@ std::vector<Named> operations(const io_tests::TemporaryFolder& folder) {
       {"limit surface", [](const Progress& progress) { LimitSurface(topology, scheme, mesh.points, progress); }},
       {"tessellation",
        [](const Progress& progress) {
-         tessellate(topology, scheme, mesh.points, 3, {true, true}, progress);
+         tessellate(small_topology, scheme, small.points, 3, {true, true}, progress);
        }},
-      {"surface mesh", [](const Progress& progress) { surface_mesh(topology, scheme, mesh, 2, progress); }},
+      {"surface mesh", [](const Progress& progress) { surface_mesh(small_topology, scheme, small, 2, progress); }},
       {"surface mesh of a Butterfly",
        [](const Progress& progress) {
-         static const Mesh triangles = triangulated(mesh);
+         static const Mesh triangles = triangulated(small);
          static const Topology connected(triangles);
          surface_mesh(connected, {SchemeKind::ModifiedButterfly}, triangles, 1, progress);
        }},
       {"distances",
-       [](const Progress& progress) { measure_distances(topology, scheme, mesh.points, mesh.points, progress); }},
+       [](const Progress& progress) {
+         measure_distances(small_topology, scheme, small.points, small.points, progress);
+       }},
       {"methods compared",
-       [](const Progress& progress) { compare_methods(topology, scheme, {}, mesh.points, progress); }},
+       [](const Progress& progress) { compare_methods(small_topology, scheme, {}, small.points, progress); }},
       {"schemes compared",
        [](const Progress& progress) {
-         static const Mesh triangles = triangulated(torus(30, 20));
+         static const Mesh triangles = triangulated(torus(15, 10));
          compare_schemes(Topology(triangles), scheme, triangles.points, 1, progress);
        }},
       {"discrete curvature",

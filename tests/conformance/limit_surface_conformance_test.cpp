@@ -24,7 +24,7 @@ constexpr int kHalvings = 8;
 constexpr double kMargin = 1.0 / 64.0;
 
 /// Over the greatest coordinate of a face's control points, and their number where it is more than a patch's 16.
-constexpr double kTolerance = 5e-15;
+constexpr double kJetTolerance = 5e-15;
 /// Of derivatives up to the second, of regular faces.
 constexpr double kRegularTolerance = 2e-14;
 /// In halved faces the rounding of some units grows by 2 (first derivatives) and 4 (second) with each of the six
@@ -177,10 +177,10 @@ Differences compare(const Mesh& mesh, const Scheme& scheme, Index most_faces) {
 /// Returns how many places were compared.
 Index expect_the_jets_of_bfr(const Mesh& mesh, const Scheme& scheme, Index most_faces) {
   const Differences worst = compare(mesh, scheme, most_faces);
-  EXPECT_LE(worst.regular.point, kTolerance);
+  EXPECT_LE(worst.regular.point, kJetTolerance);
   EXPECT_LE(worst.regular.first, kRegularTolerance);
   EXPECT_LE(worst.regular.second, kRegularTolerance);
-  EXPECT_LE(worst.irregular.point, kTolerance);
+  EXPECT_LE(worst.irregular.point, kJetTolerance);
   EXPECT_LE(worst.irregular.first, kFirstTolerance);
   EXPECT_LE(worst.irregular.second, kSecondTolerance);
   return worst.regular.compared + worst.irregular.compared;

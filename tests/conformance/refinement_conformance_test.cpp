@@ -13,7 +13,7 @@ namespace batten::test {
 namespace {
 
 /// Both sides sum the same weights in double, in another order: a dozen roundings a level, 1e-15 of the diagonal each.
-constexpr double kTolerance = 1e-12;
+constexpr double kRefinedTolerance = 1e-12;
 
 double worst_row(ConstValuesRef a, ConstValuesRef b) {
   const Eigen::VectorXd distances = (a - b).rowwise().norm();
@@ -44,7 +44,7 @@ void expect_same_levels(const Mesh& mesh, const Scheme& scheme, int levels) {
   for (int level = 1; level <= levels; ++level) {
     values = Refinement(oracle.topology(level - 1), scheme).apply(values);
     const double worst = worst_row(values, oracle.positions(level)) / diagonal;
-    EXPECT_LE(worst, kTolerance) << "level " << level;
+    EXPECT_LE(worst, kRefinedTolerance) << "level " << level;
     expect_same_tags(oracle, scheme, level);
   }
 }
@@ -111,7 +111,7 @@ void expect_same_steps(const Oracle& oracle, const Scheme& scheme, double diagon
       const double weight = parent.edge_sharpness(e);
       ours.row(row) = weight * ours.row(row) + (1.0 - weight) * smooth.row(row);
     }
-    EXPECT_LE(worst_row(ours, after), kTolerance * diagonal) << "level " << level;
+    EXPECT_LE(worst_row(ours, after), kRefinedTolerance * diagonal) << "level " << level;
   }
 }
 

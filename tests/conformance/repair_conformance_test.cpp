@@ -8,13 +8,13 @@
 namespace batten::test {
 namespace {
 
-struct Case {
+struct BrokenFile {
   std::string path;
   std::string changes;  ///< kind by kind, with counts
 };
 
-const std::vector<Case>& cases() {
-  static const std::vector<Case> list{
+const std::vector<BrokenFile>& broken_files() {
+  static const std::vector<BrokenFile> list{
       {"osd-shapes/catmark_nonman_bareverts", "isolated-vertices 10"},
       // A hundred fins that all pass the edge in the same direction: no two make a sheet.
       {"osd-shapes/catmark_nonman_edge100", "split-edges 1, split-vertices 2"},
@@ -36,7 +36,7 @@ const std::vector<Case>& cases() {
   return list;
 }
 
-class Mended : public testing::TestWithParam<Case> {};
+class Mended : public testing::TestWithParam<BrokenFile> {};
 
 TEST_P(Mended, AsExpectedAndThenInterpolates) {
   BATTEN_REQUIRE_DATA();
@@ -54,7 +54,7 @@ TEST_P(Mended, AsExpectedAndThenInterpolates) {
   EXPECT_LE(interpolant.report.max_error, 1e-10 * bounding_diagonal(result.mesh.points));
 }
 
-INSTANTIATE_TEST_SUITE_P(Repair, Mended, testing::ValuesIn(cases()), [](const auto& tested) {
+INSTANTIATE_TEST_SUITE_P(Repair, Mended, testing::ValuesIn(broken_files()), [](const auto& tested) {
   std::string name = tested.param.path.substr(tested.param.path.find('/') + 1);
   for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
   return name;

@@ -10,6 +10,7 @@
 #include "batten/expand/volume.h"
 #include "batten/parallel/parallel.h"
 #include "batten/refine/refinement.h"
+#include "support/schemes.h"
 #include "support/shapes.h"
 
 namespace batten {
@@ -66,13 +67,6 @@ int sides_of(const Points& points, Index v) {
   return sides;
 }
 
-const Scheme kQuads;
-Scheme loop() {
-  Scheme scheme;
-  scheme.kind = SchemeKind::Loop;
-  return scheme;
-}
-
 /// A wave along one direction of a regular torus, S edges long, is an eigenvector.
 TEST(Strength, IsThatOfWavesOnARegularMesh) {
   const Index around = 24;
@@ -86,7 +80,7 @@ TEST(Strength, IsThatOfWavesOnARegularMesh) {
       return MeshSeries(topology, scheme).remainder(wave, 1);
     };
     const double of_quads = wave_remainder(SchemeKind::CatmullClark, SeriesMatrix::Limit, edges);
-    EXPECT_LT((left(quads, kQuads) - of_quads * wave).cwiseAbs().maxCoeff(), 1e-14) << edges;
+    EXPECT_LT((left(quads, test::kCatmullClark) - of_quads * wave).cwiseAbs().maxCoeff(), 1e-14) << edges;
   }
   // On triangles along the edges the neighbours are at 1, 1/2 and 1/2 of the wave: two rows of a grid one edge high.
   for (const double edges : {2.0, 3.0, 6.0, 8.0}) {
@@ -123,19 +117,21 @@ TEST(Noise, IsMeasuredToAFewPerCent) {
     for (const double share : {0.03, 0.1, 0.4}) {
       Mesh mesh = triangles ? test::triangle_torus(120, 60) : torus(120, 60);
       const double deviation = add_noise(mesh, share, 5);
-      const DenoiseResult result = denoise(mesh, triangles ? loop() : kQuads);
+      const DenoiseResult result = denoise(mesh, triangles ? test::kLoop : test::kCatmullClark);
       EXPECT_NEAR(result.noise.deviation, deviation, 0.07 * deviation) << triangles << " " << share;
     }
   }
 }
 
-TEST(Noise, IsNotWhatASmoothShapeIsMadeOf) { EXPECT_LT(denoise(torus(120, 60), kQuads).noise.deviation, 1e-6); }
+TEST(Noise, IsNotWhatASmoothShapeIsMadeOf) {
+  EXPECT_LT(denoise(torus(120, 60), test::kCatmullClark).noise.deviation, 1e-6);
+}
 
 /// A sixth of the vertices of this cube lie next to its edges; the root mean square would be ten times too large.
 TEST(Noise, IsNotWhatSharpEdgesAreMadeOf) {
   Mesh mesh = fine_cube(5);
   const double deviation = add_noise(mesh, 0.05, 2);
-  EXPECT_NEAR(denoise(mesh, kQuads).noise.deviation, deviation, 0.2 * deviation);
+  EXPECT_NEAR(denoise(mesh, test::kCatmullClark).noise.deviation, deviation, 0.2 * deviation);
 }
 
 /// Compared with the best of all passes, which the known shape determines.
@@ -143,7 +139,7 @@ TEST(Denoise, ChoosesPassesNearlyAsGoodAsTheBest) {
   for (const bool triangles : {false, true}) {
     for (const SeriesMatrix matrix : {SeriesMatrix::Limit, SeriesMatrix::Cotangent}) {
       Mesh mesh = triangles ? test::triangle_torus(60, 30) : torus(60, 30);
-      const Scheme scheme = triangles ? loop() : kQuads;
+      const Scheme scheme = triangles ? test::kLoop : test::kCatmullClark;
       add_noise(mesh, 0.2, 8);
       DenoiseOptions options;
       options.automatic = true;
@@ -165,7 +161,7 @@ TEST(Denoise, LeavesASmoothShapeNearlyAlone) {
   DenoiseOptions options;
   options.automatic = true;
   const Mesh mesh = torus(80, 40);
-  const DenoiseResult result = denoise(mesh, kQuads, options);
+  const DenoiseResult result = denoise(mesh, test::kCatmullClark, options);
   EXPECT_LT(result.most_moved, 1e-6);
 }
 
@@ -174,9 +170,9 @@ TEST(Denoise, DoesAsTheSeriesDoes) {
   DenoiseOptions options;
   options.m = 1;
   options.passes = 6;
-  const DenoiseResult result = denoise(mesh, kQuads, options);
+  const DenoiseResult result = denoise(mesh, test::kCatmullClark, options);
   const Topology topology(mesh);
-  const Values expected = MeshSeries(topology, kQuads).smooth(mesh.points, 1, 6);
+  const Values expected = MeshSeries(topology, test::kCatmullClark).smooth(mesh.points, 1, 6);
   EXPECT_TRUE((result.points.array() == expected.array()).all());
   EXPECT_NEAR(result.moved, std::sqrt((expected - mesh.points).squaredNorm() / mesh.vertex_count()), 1e-15);
   EXPECT_EQ(result.most_moved, (expected - mesh.points).rowwise().norm().maxCoeff());
@@ -197,9 +193,10 @@ TEST(Denoise, KeepsTheVolumeOfEachComponent) {
   mesh.points.bottomRows(20) = other.points.rowwise() + Eigen::RowVector3d(7.0, 0.0, 0.0);
   DenoiseOptions options;
   options.passes = 3;
-  EXPECT_LT(denoise(mesh, kQuads, options).volume_after, 0.9 * denoise(mesh, kQuads, options).volume_before);
+  EXPECT_LT(denoise(mesh, test::kCatmullClark, options).volume_after,
+            0.9 * denoise(mesh, test::kCatmullClark, options).volume_before);
   options.keep_volume = true;
-  const DenoiseResult result = denoise(mesh, kQuads, options);
+  const DenoiseResult result = denoise(mesh, test::kCatmullClark, options);
   EXPECT_EQ(result.closed_components, 2);
   EXPECT_EQ(result.scaled_components, 2);
   EXPECT_NEAR(result.volume_after, result.volume_before, 1e-12 * result.volume_before);
@@ -250,9 +247,9 @@ TEST(Denoise, KeepsFeaturesSharp) {
     }
     return std::sqrt(sum / clean.vertex_count());
   };
-  const double blunt = error(denoise(mesh, kQuads, options).points);
+  const double blunt = error(denoise(mesh, test::kCatmullClark, options).points);
   options.features = true;
-  const DenoiseResult result = denoise(mesh, kQuads, options);
+  const DenoiseResult result = denoise(mesh, test::kCatmullClark, options);
   EXPECT_LT(error(result.points), 0.6 * error(mesh.points));
   EXPECT_LT(error(result.points), 0.4 * blunt);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
@@ -273,9 +270,9 @@ TEST(Denoise, KeepsTheBoundaryWhenAsked) {
     }
     return most;
   };
-  EXPECT_GT(boundary_moved(denoise(mesh, kQuads, options)), 0.01);
+  EXPECT_GT(boundary_moved(denoise(mesh, test::kCatmullClark, options)), 0.01);
   options.keep_boundary = true;
-  const DenoiseResult kept = denoise(mesh, kQuads, options);
+  const DenoiseResult kept = denoise(mesh, test::kCatmullClark, options);
   EXPECT_EQ(boundary_moved(kept), 0.0);
   EXPECT_GT(kept.moved, 0.01);
 }
@@ -287,9 +284,9 @@ TEST(Denoise, ThreadsDoNotChangeABit) {
   options.automatic = true;
   options.features = true;
   options.keep_volume = true;
-  const DenoiseResult all = denoise(mesh, kQuads, options);
+  const DenoiseResult all = denoise(mesh, test::kCatmullClark, options);
   const ThreadLimit limit(1);
-  const DenoiseResult one = denoise(mesh, kQuads, options);
+  const DenoiseResult one = denoise(mesh, test::kCatmullClark, options);
   EXPECT_TRUE((all.points.array() == one.points.array()).all());
   EXPECT_EQ(all.noise.deviation, one.noise.deviation);
   EXPECT_EQ(all.removed, one.removed);
@@ -312,15 +309,15 @@ TEST(Denoise, TakesEverySample) {
 TEST(Denoise, RefusesWhatMakesNoSense) {
   DenoiseOptions options;
   options.passes = -1;
-  EXPECT_THROW(denoise(cube(), kQuads, options), Error);
+  EXPECT_THROW(denoise(cube(), test::kCatmullClark, options), Error);
   options = {};
   options.m = -1;
-  EXPECT_THROW(denoise(cube(), kQuads, options), Error);
+  EXPECT_THROW(denoise(cube(), test::kCatmullClark, options), Error);
   options = {};
   options.features = true;
   options.feature_options.degrees = 180.0;
-  EXPECT_THROW(denoise(cube(), kQuads, options), Error);
-  EXPECT_THROW(denoise(cube(), loop()), Error);
+  EXPECT_THROW(denoise(cube(), test::kCatmullClark, options), Error);
+  EXPECT_THROW(denoise(cube(), test::kLoop), Error);
 }
 
 }  // namespace

@@ -8,15 +8,14 @@
 #include "batten/expand/denoise.h"
 #include "batten/mesh/triangulate.h"
 #include "batten/parallel/parallel.h"
+#include "support/schemes.h"
 #include "support/shapes.h"
 
 namespace batten {
 namespace {
 
-const Scheme kQuads;
-
 SharpenResult sharpened(const Mesh& mesh, const SharpenOptions& options = {}) {
-  return sharpen(Topology(mesh), kQuads, mesh.points, options);
+  return sharpen(Topology(mesh), test::kCatmullClark, mesh.points, options);
 }
 
 /// Two grids that cross at a right angle, n by n each.
@@ -100,7 +99,7 @@ TEST(Sharpen, AddsTheTermsItIsAskedFor) {
   const Mesh mesh = test::jittered(torus(12, 8), 0.02, 1);
   const Topology topology(mesh);
   const Index count = mesh.vertex_count();
-  const Values g = Values::Identity(count, count) - LimitMatrix(topology, kQuads).matrix().toDense();
+  const Values g = Values::Identity(count, count) - LimitMatrix(topology, test::kCatmullClark).matrix().toDense();
   const Values step = Values::Identity(count, count) + 0.3 * (g * g + g * g * g + g * g * g * g);
   SharpenOptions options;
   options.m = 2;
@@ -128,7 +127,7 @@ TEST(Sharpen, GrowsNoDetailBeyondTheBound) {
       options.passes = passes;
       options.most_growth = most;
       options.amount = 100.0;
-      const SharpenResult result = sharpen(topology, kQuads, mesh.points, options);
+      const SharpenResult result = sharpen(topology, test::kCatmullClark, mesh.points, options);
       EXPECT_NEAR(result.points.cwiseAbs().maxCoeff(), most, 1e-9 * most);
       EXPECT_NEAR(result.growth, most, 1e-9 * most);
     }
@@ -160,7 +159,7 @@ TEST(Sharpen, BringsBackWhatDenoisingTook) {
   smooth.passes = 2;
   smooth.keep_boundary = true;
   Mesh blurred = mesh;
-  blurred.points = denoise(mesh, kQuads, smooth).points;
+  blurred.points = denoise(mesh, test::kCatmullClark, smooth).points;
   SharpenOptions options;
   options.keep_boundary = true;
   options.amount = 2.0;

@@ -12,13 +12,11 @@
 #include "batten/refine/refinement.h"
 #include "batten/tessellate/surface_mesh.h"
 #include "io/io_test_tools.h"
+#include "support/schemes.h"
 #include "support/shapes.h"
 
 namespace batten {
 namespace {
-
-const Scheme kQuads;
-const Scheme kLoop{SchemeKind::Loop};
 
 /// With two stray vertices, so that the bounding box, and with it the noise, is the same at all levels.
 Mesh boxed(Mesh mesh) {
@@ -30,7 +28,7 @@ Mesh boxed(Mesh mesh) {
 }
 
 /// Closed, open, of mixed faces, with a singular interpolation (the cube), creased.
-std::vector<Mesh> shapes() {
+std::vector<Mesh> boxed_shapes() {
   std::vector<Mesh> all{torus(9, 7), grid(6, 5), cube(), test::bipyramid(5), test::annulus(8)};
   all.push_back(torus(9, 7));
   all.back().creases = {{0, 1, 10.0}, {1, 2, 10.0}, {2, 3, 1.5}};
@@ -86,11 +84,12 @@ TEST(SolidNoise, IsSmoothAcrossTheSidesOfItsCells) {
 }
 
 TEST(SurfaceNoise, PassesThroughTheRandomNumbersOfItsLevel) {
-  for (const Mesh& mesh : shapes()) {
+  for (const Mesh& mesh : boxed_shapes()) {
     const Topology topology(mesh);
-    const Mesh surface = surface_mesh(topology, kQuads, mesh, 2);
-    const Values noise = noise_at(topology, kQuads, surface.points, 2, octaves(1));
-    const Values numbers = noise_at(topology, kQuads, surface.points.topRows(mesh.vertex_count()), 0, octaves(1));
+    const Mesh surface = surface_mesh(topology, test::kCatmullClark, mesh, 2);
+    const Values noise = noise_at(topology, test::kCatmullClark, surface.points, 2, octaves(1));
+    const Values numbers =
+        noise_at(topology, test::kCatmullClark, surface.points.topRows(mesh.vertex_count()), 0, octaves(1));
     // The interpolator's 1e-10 of the numbers' range, which is below 10.
     EXPECT_LT((noise.topRows(numbers.rows()) - numbers).cwiseAbs().maxCoeff(), 1e-9);
     EXPECT_GT(numbers.cwiseAbs().maxCoeff(), 0.1);
@@ -98,21 +97,21 @@ TEST(SurfaceNoise, PassesThroughTheRandomNumbersOfItsLevel) {
 }
 
 TEST(SurfaceNoise, AddsEachOctavesOwnSurface) {
-  for (const Mesh& mesh : shapes()) {
+  for (const Mesh& mesh : boxed_shapes()) {
     const Topology topology(mesh);
-    const Mesh surface = surface_mesh(topology, kQuads, mesh, 3);
-    const Refinement step(topology, kQuads);
+    const Mesh surface = surface_mesh(topology, test::kCatmullClark, mesh, 3);
+    const Refinement step(topology, test::kCatmullClark);
     const Index coarse = mesh.vertex_count();
     const Index fine = step.child().vertex_count();
-    const Values first = noise_at(topology, kQuads, surface.points.topRows(coarse), 0, octaves(1));
-    const Values both = noise_at(step.child(), kQuads, surface.points.topRows(fine), 0, octaves(2));
-    const Values fine_first = noise_at(step.child(), kQuads, surface.points.topRows(fine), 0, octaves(1));
+    const Values first = noise_at(topology, test::kCatmullClark, surface.points.topRows(coarse), 0, octaves(1));
+    const Values both = noise_at(step.child(), test::kCatmullClark, surface.points.topRows(fine), 0, octaves(2));
+    const Values fine_first = noise_at(step.child(), test::kCatmullClark, surface.points.topRows(fine), 0, octaves(1));
     const Values second = std::sqrt(2.0) * both - fine_first;
-    const Values sum = through(topology, kQuads, first, 3);
-    const Values noise = noise_at(topology, kQuads, surface.points, 3, octaves(2));
+    const Values sum = through(topology, test::kCatmullClark, first, 3);
+    const Values noise = noise_at(topology, test::kCatmullClark, surface.points, 3, octaves(2));
     // The octave of 12 is sampled at the coarsest level with edges of half its features.
-    const Values at_coarse = (sum + through(topology, kQuads, second.topRows(coarse), 3)) / std::sqrt(2.0);
-    const Values at_fine = (sum + through(step.child(), kQuads, second, 2)) / std::sqrt(2.0);
+    const Values at_coarse = (sum + through(topology, test::kCatmullClark, second.topRows(coarse), 3)) / std::sqrt(2.0);
+    const Values at_fine = (sum + through(step.child(), test::kCatmullClark, second, 2)) / std::sqrt(2.0);
     EXPECT_LT(std::min((noise - at_coarse).cwiseAbs().maxCoeff(), (noise - at_fine).cwiseAbs().maxCoeff()), 1e-8);
   }
 }
@@ -125,8 +124,10 @@ TEST(SurfaceNoise, DependsOnPlacesNotOnTheOrderOfVertices) {
   for (Index& v : turned.face_vertices) v = (v + 17) % count;
   const Topology topology(mesh);
   const Topology other(turned);
-  const Values noise = noise_at(topology, kQuads, surface_mesh(topology, kQuads, mesh, 2).points, 2, {});
-  const Values moved = noise_at(other, kQuads, surface_mesh(other, kQuads, turned, 2).points, 2, {});
+  const Values noise =
+      noise_at(topology, test::kCatmullClark, surface_mesh(topology, test::kCatmullClark, mesh, 2).points, 2, {});
+  const Values moved =
+      noise_at(other, test::kCatmullClark, surface_mesh(other, test::kCatmullClark, turned, 2).points, 2, {});
   // Twice the interpolator's tolerance.
   for (Index v = 0; v < count; ++v) EXPECT_NEAR(noise(v, 0), moved((v + 17) % count, 0), 1e-8);
 }
@@ -134,22 +135,22 @@ TEST(SurfaceNoise, DependsOnPlacesNotOnTheOrderOfVertices) {
 TEST(SurfaceNoise, HasTheSameBitsForAnyNumberOfThreads) {
   const Mesh mesh = test::triangle_torus(40, 30);
   const Topology topology(mesh);
-  const Mesh surface = surface_mesh(topology, kLoop, mesh, 2);
+  const Mesh surface = surface_mesh(topology, test::kLoop, mesh, 2);
   Values one;
   {
     const ThreadLimit limit(1);
-    one = noise_at(topology, kLoop, surface.points, 2, {});
+    one = noise_at(topology, test::kLoop, surface.points, 2, {});
   }
   const ThreadLimit limit(7);
-  const Values seven = noise_at(topology, kLoop, surface.points, 2, {});
+  const Values seven = noise_at(topology, test::kLoop, surface.points, 2, {});
   EXPECT_TRUE((one.array() == seven.array()).all());
-  EXPECT_FALSE((one.array() == noise_at(topology, kLoop, surface.points, 2, {2}).array()).any());
+  EXPECT_FALSE((one.array() == noise_at(topology, test::kLoop, surface.points, 2, {2}).array()).any());
 }
 
 TEST(SurfaceNoise, RefusesWhatItCannotUse) {
   const Mesh mesh = cube();
   const Topology topology(mesh);
-  const SurfaceNoise noise(topology, kQuads, 0);
+  const SurfaceNoise noise(topology, test::kCatmullClark, 0);
   const NoiseOptions plain;
   io_tests::expect_error([&] { noise.values(mesh.points.topRows(7), std::span(&plain, 1)); }, ErrorCode::BadShape,
                          "8 vertices");
@@ -159,8 +160,8 @@ TEST(SurfaceNoise, RefusesWhatItCannotUse) {
   Points wild = mesh.points;
   wild(3, 1) = std::nan("");
   io_tests::expect_error([&] { noise.values(wild, std::span(&plain, 1)); }, ErrorCode::NotFinite, "vertex 3");
-  io_tests::expect_error([&] { SurfaceNoise(topology, kQuads, -1); }, ErrorCode::BadArgument, "negative");
-  io_tests::expect_error([&] { SurfaceNoise(topology, kLoop, 1); }, ErrorCode::NotTriangles, "");
+  io_tests::expect_error([&] { SurfaceNoise(topology, test::kCatmullClark, -1); }, ErrorCode::BadArgument, "negative");
+  io_tests::expect_error([&] { SurfaceNoise(topology, test::kLoop, 1); }, ErrorCode::NotTriangles, "");
 }
 
 }  // namespace

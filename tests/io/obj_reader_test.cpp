@@ -4,7 +4,7 @@
 namespace batten::io_tests {
 namespace {
 
-const char* const kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+const char* const kCorners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 Mesh obj(const std::string& text) { return parse(io::read_obj, text); }
 
@@ -26,7 +26,7 @@ TEST(ObjReader, ADecimalBecomesTheNearestDouble) {
 }
 
 TEST(ObjReader, LineEndsTabsCommentsAndContinuedLinesDoNotMatter) {
-  const Mesh plain = obj(std::string(kTriangle) + "f 1 2 3\n");
+  const Mesh plain = obj(std::string(kCorners) + "f 1 2 3\n");
   const Mesh odd =
       obj("# C:\\folder\\\r\n\r\n \tv\t0  0 0\t# origin\r\nv 1 \\\r\n 0 0\r\nv 0 \\\n\\\n1 0\n\nf 1\\\n 2 3 \\\n#c");
   expect_same_mesh(plain, odd);
@@ -43,7 +43,7 @@ TEST(ObjReader, NegativeIndicesCountBackFromTheLine) {
 
 TEST(ObjReader, CornersKeepTheSharingOfTheirRows) {
   const Mesh mesh =
-      obj(std::string(kTriangle) + "vt 0 0\nvt 1 0 9\nvt 0.5\nvn 0 0 1\nf 1/1/1 2/2/1 3/1/-1\nf 3//1 2 1/3\n");
+      obj(std::string(kCorners) + "vt 0 0\nvt 1 0 9\nvt 0.5\nvn 0 0 1\nf 1/1/1 2/2/1 3/1/-1\nf 3//1 2 1/3\n");
   ASSERT_EQ(mesh.attributes.size(), 2U);
   EXPECT_EQ(mesh.attributes[0].name, "uv");
   EXPECT_EQ(mesh.attributes[0].values, (Values(3, 2) << 0, 0, 1, 0, 0.5, 0).finished());
@@ -53,7 +53,7 @@ TEST(ObjReader, CornersKeepTheSharingOfTheirRows) {
 }
 
 TEST(ObjReader, EmptyFieldsOfACornerAreNone) {
-  const Mesh mesh = obj(std::string(kTriangle) + "f 1/ 2// 3\n");
+  const Mesh mesh = obj(std::string(kCorners) + "f 1/ 2// 3\n");
   EXPECT_EQ(mesh.face_vertices, (Buffer<Index>{0, 1, 2}));
   EXPECT_TRUE(mesh.attributes.empty());
 }
@@ -96,11 +96,11 @@ TEST(ObjReader, APolygonMayHaveAnySize) {
 }
 
 TEST(ObjReader, AReturnInsideANameIsABlank) {
-  EXPECT_EQ(obj("g a\rb\r\n" + std::string(kTriangle)).groups.at(0).name, "a b");
+  EXPECT_EQ(obj("g a\rb\r\n" + std::string(kCorners)).groups.at(0).name, "a b");
 }
 
 TEST(ObjReader, GroupsAndMaterialsAreKept) {
-  const Mesh mesh = obj("mtllib my materials.mtl\n" + std::string(kTriangle) +
+  const Mesh mesh = obj("mtllib my materials.mtl\n" + std::string(kCorners) +
                         "o thing\ng left arm\nusemtl red\ns off\nf 1 2 3\ng unused\ng right\nf 3 2 1\ns 1\n");
   EXPECT_EQ(mesh.material_libraries, std::vector<std::string>{"my materials.mtl"});
   ASSERT_EQ(mesh.groups.size(), 6U);
@@ -114,13 +114,13 @@ TEST(ObjReader, GroupsAndMaterialsAreKept) {
 
 TEST(ObjReader, LinesPointsAndUnknownStatementsAreSkipped) {
   const Mesh mesh =
-      obj(std::string(kTriangle) + "l 1 2\np 1\nvp 0.5\ncstype bezier\nwhatever 1 abc \\\nv not a vertex\n");
+      obj(std::string(kCorners) + "l 1 2\np 1\nvp 0.5\ncstype bezier\nwhatever 1 abc \\\nv not a vertex\n");
   EXPECT_EQ(mesh.vertex_count(), 3);
   EXPECT_EQ(mesh.face_count(), 0);
 }
 
 TEST(ObjReader, ReadsOpenSubdivTags) {
-  const Mesh mesh = obj(std::string(kTriangle) +
+  const Mesh mesh = obj(std::string(kCorners) +
                         "f 1 2 3\nt interpolateboundary 1/0/0 2\nt crease 2/1/0 0 1 2.5\nt crease 3/2/0 0 1 2 3 4\n"
                         "t crease 3/1/0 2 1 0 5\nt corner 1/1/0 2 10\nt corner 2/1/0 0 1 3\nt hole 1/0/0 0\n"
                         "t creasemethod 0/0/1 chaikin\nt smoothtriangles 0/0/1 smooth\n"

@@ -58,7 +58,7 @@ struct Usda {
   }
 };
 
-Usda written(const Mesh& mesh) {
+Usda written_usda(const Mesh& mesh) {
   const TemporaryFolder folder;
   write_mesh(folder.path("m.usda"), mesh);
   Usda file;
@@ -80,7 +80,7 @@ Usda written(const Mesh& mesh) {
 }
 
 /// One of everything that USD knows.
-Mesh rich_mesh() {
+Mesh tagged_mesh() {
   Mesh mesh = grid(4, 3);
   mesh.creases = {{0, 1, 2.5}, {1, 2, 2.5}, {6, 7, 30.0}};
   mesh.corners = {{4, 1.5}, {9, 1e9}};
@@ -102,8 +102,8 @@ TEST(UsdaWriter, EveryAttributeIsDocumented) {
   std::size_t seen = 0;
   std::set<std::string> missing;
   for (const auto& entry : kSchema) missing.insert(entry.first);
-  for (const Mesh& mesh : {rich_mesh(), polygons}) {
-    for (const auto& type : written(mesh).types) {
+  for (const Mesh& mesh : {tagged_mesh(), polygons}) {
+    for (const auto& type : written_usda(mesh).types) {
       ASSERT_EQ(kSchema.count(type.first), 1U) << type.first;
       EXPECT_EQ(kSchema.at(type.first), type.second) << type.first;
       missing.erase(type.first);
@@ -119,14 +119,14 @@ TEST(UsdaWriter, PointsKeepEveryDigitOfTheirDoubles) {
   std::mt19937_64 generator(3);
   for (Eigen::Index i = 0; i < mesh.points.size(); ++i)
     mesh.points.data()[i] += 1e-3 * std::generate_canonical<double, 53>(generator);
-  const std::vector<double> numbers = written(mesh).numbers("points");
+  const std::vector<double> numbers = written_usda(mesh).numbers("points");
   ASSERT_EQ(numbers.size(), static_cast<std::size_t>(mesh.points.size()));
   EXPECT_TRUE(std::equal(numbers.begin(), numbers.end(), mesh.points.data()));
 }
 
 TEST(UsdaWriter, FacesAreThoseOfTheMesh) {
   const Mesh mesh = grid(4, 3);
-  const Usda file = written(mesh);
+  const Usda file = written_usda(mesh);
   const std::vector<double> indices = file.numbers("faceVertexIndices");
   EXPECT_EQ(std::vector<Index>(indices.begin(), indices.end()),
             std::vector<Index>(mesh.face_vertices.begin(), mesh.face_vertices.end()));
@@ -134,26 +134,26 @@ TEST(UsdaWriter, FacesAreThoseOfTheMesh) {
 }
 
 TEST(UsdaWriter, TheSurfaceIsTheMeshsOwn) {
-  EXPECT_EQ(written(grid(1, 1)).value("subdivisionScheme"), "\"catmullClark\"");
-  EXPECT_EQ(written(grid(1, 1)).value("interpolateBoundary"), "\"edgeOnly\"");
-  EXPECT_EQ(written(octahedron()).value("subdivisionScheme"), "\"loop\"");
+  EXPECT_EQ(written_usda(grid(1, 1)).value("subdivisionScheme"), "\"catmullClark\"");
+  EXPECT_EQ(written_usda(grid(1, 1)).value("interpolateBoundary"), "\"edgeOnly\"");
+  EXPECT_EQ(written_usda(octahedron()).value("subdivisionScheme"), "\"loop\"");
   Mesh mesh = octahedron();
   mesh.scheme = SchemeKind::CatmullClark;
   mesh.boundary = BoundaryRule::None;
   mesh.attributes = {{"normal", mesh.points, {}}};
-  const Usda file = written(mesh);
+  const Usda file = written_usda(mesh);
   EXPECT_EQ(file.value("subdivisionScheme"), "\"catmullClark\"");
   EXPECT_EQ(file.value("interpolateBoundary"), "\"none\"");
   EXPECT_EQ(file.value("triangleSubdivisionRule"), "\"catmullClark\"");
   EXPECT_EQ(file.value("normals"), "nothing");
-  EXPECT_EQ(written(rich_mesh()).value("triangleSubdivisionRule"), "\"smooth\"");
-  EXPECT_EQ(written(rich_mesh()).value("interpolateBoundary"), "\"edgeAndCorner\"");
+  EXPECT_EQ(written_usda(tagged_mesh()).value("triangleSubdivisionRule"), "\"smooth\"");
+  EXPECT_EQ(written_usda(tagged_mesh()).value("interpolateBoundary"), "\"edgeAndCorner\"");
 }
 
 TEST(UsdaWriter, PolygonsWithNormalsAreNoSubdivisionSurface) {
   Mesh mesh = octahedron();
   mesh.attributes = {{"normal", 2.0 * mesh.points, {}}};
-  const Usda file = written(mesh);
+  const Usda file = written_usda(mesh);
   EXPECT_EQ(file.value("subdivisionScheme"), "\"none\"");
   const std::vector<double> normals = file.numbers("normals");
   EXPECT_EQ(normals, std::vector<double>(mesh.points.data(), mesh.points.data() + mesh.points.size()));
@@ -163,7 +163,7 @@ TEST(UsdaWriter, NormalsAtCornersAreWrittenThere) {
   Mesh mesh = octahedron();
   mesh.attributes = {{"normal", mesh.points, mesh.face_vertices}};
   mesh.attributes[0].corner_rows[2] = -1;
-  const std::vector<double> normals = written(mesh).numbers("normals");
+  const std::vector<double> normals = written_usda(mesh).numbers("normals");
   ASSERT_EQ(normals.size(), 3 * mesh.face_vertices.size());
   for (std::size_t i = 0; i < normals.size(); ++i) {
     // The corner without one takes the mean of its faces: by symmetry the same.
@@ -172,7 +172,7 @@ TEST(UsdaWriter, NormalsAtCornersAreWrittenThere) {
 }
 
 TEST(UsdaWriter, CreasesAreJoinedAndInfinityIsTen) {
-  const Usda file = written(rich_mesh());
+  const Usda file = written_usda(tagged_mesh());
   EXPECT_EQ(file.value("creaseIndices"), "[0, 1, 2, 6, 7]");
   EXPECT_EQ(file.value("creaseLengths"), "[3, 2]");
   EXPECT_EQ(file.value("creaseSharpnesses"), "[2.5, 10]");
@@ -182,23 +182,23 @@ TEST(UsdaWriter, CreasesAreJoinedAndInfinityIsTen) {
 }
 
 TEST(UsdaWriter, FarFromTheOriginTheTransformCarriesThePlace) {
-  const Mesh mesh = rich_mesh();
-  const Usda file = written(mesh);
+  const Mesh mesh = tagged_mesh();
+  const Usda file = written_usda(mesh);
   const std::vector<double> place = file.numbers("xformOp:translate");
   const std::vector<double> points = file.numbers("points");
   for (Eigen::Index i = 0; i < mesh.points.size(); ++i) EXPECT_EQ(points[i] + place[i % 3], mesh.points.data()[i]);
-  EXPECT_EQ(written(grid(3, 3)).value("xformOpOrder"), "nothing");
+  EXPECT_EQ(written_usda(grid(3, 3)).value("xformOpOrder"), "nothing");
 }
 
 TEST(UsdaWriter, ACornerWithoutATextureTakesZeros) {
-  const Usda file = written(rich_mesh());
+  const Usda file = written_usda(tagged_mesh());
   EXPECT_EQ(file.value("primvars:st"), "[(0, 0), (1, 0), (0, 1), (0, 0)]");
   const std::vector<double> rows = file.numbers("primvars:st:indices");
   EXPECT_EQ(std::vector<double>(rows.begin(), rows.begin() + 5), (std::vector<double>{3, 0, 1, 2, 3}));
 }
 
 TEST(UsdaWriter, MaterialsAreSubsetsWithAllowedNames) {
-  const std::string text = written(rich_mesh()).text;
+  const std::string text = written_usda(tagged_mesh()).text;
   EXPECT_NE(text.find("def GeomSubset \"red_paint\""), std::string::npos);
   EXPECT_NE(text.find("def GeomSubset \"_2nd\""), std::string::npos);
   EXPECT_NE(text.find("int[] indices = [7, 8, 9, 10, 11]"), std::string::npos);
@@ -207,7 +207,7 @@ TEST(UsdaWriter, MaterialsAreSubsetsWithAllowedNames) {
 TEST(UsdaWriter, OtherAttributesBecomePrimvars) {
   Mesh mesh = grid(1, 1);
   mesh.attributes = {{"heat flux", Values::Constant(4, 1, 0.1), {}}, {"heat_flux", Values::Constant(4, 5, 2.0), {}}};
-  const Usda file = written(mesh);
+  const Usda file = written_usda(mesh);
   EXPECT_EQ(file.types.at("primvars:heat_flux"), "double[]");
   EXPECT_EQ(file.value("primvars:heat_flux"), "[0.1, 0.1, 0.1, 0.1]");
   EXPECT_EQ(file.numbers("primvars:heat_flux_1").size(), 20U);
@@ -216,7 +216,7 @@ TEST(UsdaWriter, OtherAttributesBecomePrimvars) {
 
 TEST(UsdaWriter, RefusesWhatUsdCannotHold) {
   const TemporaryFolder folder;
-  Mesh mesh = rich_mesh();
+  Mesh mesh = tagged_mesh();
   mesh.crease_method = CreaseMethod::Chaikin;
   expect_error([&] { write_mesh(folder.path("m.usda"), mesh); }, ErrorCode::BadArgument, "Chaikin");
   mesh.creases = {{0, 1, 10.0}};

@@ -17,7 +17,7 @@ namespace batten {
 namespace {
 
 /// Sums of at most some hundred terms of order 1.
-constexpr double kTolerance = 1e-13;
+constexpr double kRounding = 1e-13;
 
 double worst(ConstValuesRef a, ConstValuesRef b) { return (a - b).cwiseAbs().maxCoeff(); }
 
@@ -25,7 +25,7 @@ TEST(Refinement, RowsSumToOne) {
   test::for_each_sample([](const Mesh& mesh, const Scheme& scheme, const std::string& name) {
     const Topology topology(test::with_random_tags(mesh, 2));
     const RefinedSurface surface = refine(topology, scheme, Values::Ones(topology.vertex_count(), 1), 3);
-    EXPECT_LT(worst(surface.values, Values::Ones(surface.values.rows(), 1)), kTolerance) << name;
+    EXPECT_LT(worst(surface.values, Values::Ones(surface.values.rows(), 1)), kRounding) << name;
   });
 }
 
@@ -70,7 +70,7 @@ TEST(Refinement, DoesNotDependOnTheOrderOfVerticesAndFaces) {
   for (Index v = 0; v < 20; ++v) other.points.row(place[v]) = mesh.points.row(v);
   const Values a = refine(Topology(mesh), Scheme(), mesh.points, 2).values;
   const Values b = refine(Topology(other), Scheme(), other.points, 2).values;
-  for (Index v = 0; v < 20; ++v) EXPECT_LT(worst(a.row(v), b.row(place[v])), kTolerance);
+  for (Index v = 0; v < 20; ++v) EXPECT_LT(worst(a.row(v), b.row(place[v])), kRounding);
   EXPECT_LT(worst(a.colwise().sum(), b.colwise().sum()), 1e-11);
   EXPECT_NEAR(a.norm(), b.norm(), 1e-11);
 }
@@ -89,7 +89,7 @@ TEST(Refinement, SingleFaceVerticesStayUnderEdgeAndCornerOnly) {
   const Mesh mesh = grid(1, 1);
   Scheme scheme;
   const Eigen::RowVector3d corner = mesh.points.row(0);
-  EXPECT_LT(worst(refine(Topology(mesh), scheme, mesh.points, 1).values.row(0), 0.75 * corner), kTolerance);
+  EXPECT_LT(worst(refine(Topology(mesh), scheme, mesh.points, 1).values.row(0), 0.75 * corner), kRounding);
   scheme.boundary = BoundaryRule::EdgeAndCorner;
   EXPECT_EQ(refine(Topology(mesh), scheme, mesh.points, 3).values.row(0), corner);
 }
@@ -102,7 +102,7 @@ TEST(Refinement, ACreaseAcrossASurfaceIsACubicSpline) {
     const Eigen::RowVector3d before = mesh.points.row((i + 7) % 8 * 6);
     const Eigen::RowVector3d after = mesh.points.row((i + 1) % 8 * 6);
     const Eigen::RowVector3d expected = (before + 6.0 * mesh.points.row(i * 6) + after) / 8.0;
-    EXPECT_LT(worst(fine.row(i * 6), expected), kTolerance);
+    EXPECT_LT(worst(fine.row(i * 6), expected), kRounding);
   }
 }
 
@@ -139,17 +139,17 @@ void expect_grid_step(const Topology& topology, const Scheme& scheme, const Eige
   for (Index v = 0; v < values.rows(); ++v) values(v, 0) = coarse(v / across, v % across);
   const Values result = Refinement(topology, scheme).apply(values);
   const auto middle = [](Index a, Index b, Index n) { return std::abs(a - b) <= 1 ? a + b : 2 * n - 1; };
-  for (Index v = 0; v < values.rows(); ++v) EXPECT_NEAR(result(v, 0), fine(v / across * 2, v % across * 2), kTolerance);
+  for (Index v = 0; v < values.rows(); ++v) EXPECT_NEAR(result(v, 0), fine(v / across * 2, v % across * 2), kRounding);
   for (Index e = 0; e < topology.edge_count(); ++e) {
     const Index a = topology.origin(topology.edge_half_edge(e));
     const Index b = topology.destination(topology.edge_half_edge(e));
     const Index i = middle(a / across, b / across, around);
     const Index j = middle(a % across, b % across, across);
-    EXPECT_NEAR(result(values.rows() + e, 0), fine(i, j), kTolerance);
+    EXPECT_NEAR(result(values.rows() + e, 0), fine(i, j), kRounding);
   }
   for (Index f = 0; scheme.kind == SchemeKind::CatmullClark && f < topology.face_count(); ++f) {
     const Index row = topology.vertex_count() + topology.edge_count() + f;
-    EXPECT_NEAR(result(row, 0), fine(f / across * 2 + 1, f % across * 2 + 1), kTolerance);
+    EXPECT_NEAR(result(row, 0), fine(f / across * 2 + 1, f % across * 2 + 1), kRounding);
   }
 }
 
@@ -183,7 +183,7 @@ TEST(Refinement, AlphaOnTheCubeIsTheClosedForm) {
     Scheme scheme;
     scheme.alpha = alpha;
     const Values fine = refine(Topology(mesh), scheme, mesh.points, 1).values;
-    EXPECT_LT(worst(fine.topRows(8), (5.0 + 2.0 * alpha) / 9.0 * mesh.points), kTolerance) << alpha;
+    EXPECT_LT(worst(fine.topRows(8), (5.0 + 2.0 * alpha) / 9.0 * mesh.points), kRounding) << alpha;
   }
 }
 
@@ -204,7 +204,7 @@ TEST(Refinement, AlphaCanBeGivenVertexByVertex) {
   const Values fine = Refinement(topology, Scheme(), alpha).apply(mesh.points);
   for (Index v = 0; v < 8; ++v) {
     const double expected = (v == 3 ? 6.0 : 5.0) / 9.0;
-    EXPECT_LT(worst(fine.row(v), expected * mesh.points.row(v)), kTolerance);
+    EXPECT_LT(worst(fine.row(v), expected * mesh.points.row(v)), kRounding);
   }
 }
 

@@ -16,7 +16,7 @@ using test::code_of;
 using test::Pixel;
 using test::pixel;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 /// Falls by ten a step: on a logarithmic axis a straight line from the upper left to the lower right.
 Plot falling() {
@@ -104,12 +104,12 @@ TEST(Plot, LinesThatEndTogetherGetALegend) {
 TEST(Plot, GapsBreakTheLineAndZerosAreLeftOutOfLogarithms) {
   Plot plot = falling();
   plot.lines[0].y[4] = 0.0;
-  plot.lines[0].y[6] = kNaN;
+  plot.lines[0].y[6] = kNoNumber;
   EXPECT_EQ(draw_plot(plot, 300, 200).pixels.size(), 3U * 300U * 200U);
   // Without a positive number the axis is linear.
   for (double& y : plot.lines[0].y) y = 0.0;
   EXPECT_EQ(draw_plot(plot, 300, 200).width, 300);
-  for (double& y : plot.lines[0].y) y = kNaN;
+  for (double& y : plot.lines[0].y) y = kNoNumber;
   EXPECT_EQ(code_of([&] { draw_plot(plot); }), ErrorCode::BadArgument);
 }
 
@@ -117,7 +117,7 @@ TEST(Plot, RefusesWhatIsNoPlot) {
   Plot plot = falling();
   EXPECT_EQ(code_of([&] { draw_plot(plot, 100, 400); }), ErrorCode::BadArgument);
   EXPECT_EQ(code_of([&] { write_plot("plot.jpg", plot); }), ErrorCode::UnknownFormat);
-  plot.lines[0].x[1] = kNaN;
+  plot.lines[0].x[1] = kNoNumber;
   EXPECT_EQ(code_of([&] { draw_plot(plot); }), ErrorCode::NotFinite);
   plot.lines[0].x.pop_back();
   EXPECT_EQ(code_of([&] { draw_plot(plot); }), ErrorCode::BadShape);

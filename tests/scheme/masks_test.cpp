@@ -9,10 +9,9 @@
 namespace batten {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 const double kRoot17 = std::sqrt(17.0);
 /// A dozen roundings of numbers of order 10.
-constexpr double kTolerance = 1e-13;
+constexpr double kRounding = 1e-13;
 
 /// A ring as a vector: v, e_0 .. e_{edges-1}, then, for Catmull-Clark, f_0 .. f_{faces-1}. The rows below are written
 /// from the rules as they are printed (docs/mathematics.md, Refinement rules), without the library's masks.
@@ -33,7 +32,7 @@ struct Ring {
 Eigen::RowVectorXd vertex_row(const Ring& ring) {
   if (!ring.closed) return 0.75 * ring.unit(0) + 0.125 * (ring.unit(1) + ring.unit(ring.edges));
   const double n = ring.edges;
-  const double root = 3.0 / 8.0 + std::cos(2.0 * kPi / n) / 4.0;
+  const double root = 3.0 / 8.0 + std::cos(2.0 * std::numbers::pi / n) / 4.0;
   const double beta = (5.0 / 8.0 - root * root) / n;
   const bool quads = ring.kind == SchemeKind::CatmullClark;
   Eigen::RowVectorXd row = (quads ? (n - 2.0) / n : 1.0 - n * beta) * ring.unit(0);
@@ -95,20 +94,20 @@ const auto kBothSchemes = ::testing::Values(SchemeKind::CatmullClark, SchemeKind
 INSTANTIATE_TEST_SUITE_P(Masks, SmoothVertex, ::testing::Combine(kBothSchemes, ::testing::Range(3, 13)), ring_name);
 
 TEST_P(SmoothVertex, MasksSumToOneAndTangentsToZero) {
-  EXPECT_NEAR(as_row(ring(), vertex_mask(kind(), valence())).sum(), 1.0, kTolerance);
-  EXPECT_NEAR(as_row(ring(), limit_mask(kind(), valence())).sum(), 1.0, kTolerance);
+  EXPECT_NEAR(as_row(ring(), vertex_mask(kind(), valence())).sum(), 1.0, kRounding);
+  EXPECT_NEAR(as_row(ring(), limit_mask(kind(), valence())).sum(), 1.0, kRounding);
   const TangentMasks tangents = smooth_tangents(kind(), valence());
-  EXPECT_NEAR(as_row(ring(), tangents.first).sum(), 0.0, kTolerance);
-  EXPECT_NEAR(as_row(ring(), tangents.second).sum(), 0.0, kTolerance);
+  EXPECT_NEAR(as_row(ring(), tangents.first).sum(), 0.0, kRounding);
+  EXPECT_NEAR(as_row(ring(), tangents.second).sum(), 0.0, kRounding);
 }
 
 TEST_P(SmoothVertex, VertexMaskIsThePrintedRule) {
-  EXPECT_LT((as_row(ring(), vertex_mask(kind(), valence())) - vertex_row(ring())).norm(), kTolerance);
+  EXPECT_LT((as_row(ring(), vertex_mask(kind(), valence())) - vertex_row(ring())).norm(), kRounding);
 }
 
 TEST_P(SmoothVertex, LimitMaskIsALeftEigenvectorOfOne) {
   const Eigen::RowVectorXd mask = as_row(ring(), limit_mask(kind(), valence()));
-  EXPECT_LT((mask * refinement_matrix(ring()) - mask).norm(), kTolerance);
+  EXPECT_LT((mask * refinement_matrix(ring()) - mask).norm(), kRounding);
 }
 
 TEST_P(SmoothVertex, TangentMasksAreLeftEigenvectorsOfTheSubdominantEigenvalue) {
@@ -117,7 +116,7 @@ TEST_P(SmoothVertex, TangentMasksAreLeftEigenvectorsOfTheSubdominantEigenvalue) 
   for (const RingMask& mask : {tangents.first, tangents.second}) {
     const Eigen::RowVectorXd row = as_row(ring(), mask);
     EXPECT_GT(row.norm(), 1.0);
-    EXPECT_LT((row * refinement_matrix(ring()) - lambda * row).norm(), kTolerance);
+    EXPECT_LT((row * refinement_matrix(ring()) - lambda * row).norm(), kRounding);
   }
 }
 
@@ -134,8 +133,8 @@ TEST_P(SmoothVertex, TangentsAreOrientedOutward) {
   const TangentMasks tangents = smooth_tangents(kind(), valence());
   Eigen::MatrixXd points = Eigen::MatrixXd::Zero(ring().size(), 2);
   for (int j = 0; j < valence(); ++j) {
-    const double angle = 2.0 * kPi * j / valence();
-    const double half = kPi / valence();
+    const double angle = 2.0 * std::numbers::pi * j / valence();
+    const double half = std::numbers::pi / valence();
     points.row(ring().edge(j)) << std::cos(angle), std::sin(angle);
     if (kind() == SchemeKind::CatmullClark)
       points.row(ring().face(j)) << std::cos(angle + half), std::sin(angle + half);
@@ -144,7 +143,7 @@ TEST_P(SmoothVertex, TangentsAreOrientedOutward) {
   const Eigen::RowVector2d second = as_row(ring(), tangents.second) * points;
   EXPECT_GT(first[0] * second[1] - first[1] * second[0], 0.0);
   EXPECT_GT(first[0], 0.0);
-  EXPECT_NEAR(first[1], 0.0, kTolerance);
+  EXPECT_NEAR(first[1], 0.0, kRounding);
 }
 
 class Alpha : public SmoothVertex {};
@@ -160,8 +159,8 @@ TEST_P(Alpha, LimitMaskIsTheOrdinaryOneAfterOneStepWithAlpha) {
     Eigen::MatrixXd step = refinement_matrix(ring());
     step.row(0) = as_row(ring(), SmoothMask{(n - 2.0 + alpha) / n, (1.0 - alpha) / (n * n), 1.0 / (n * n)});
     const Eigen::RowVectorXd expected = as_row(ring(), limit_mask(kind(), valence())) * step;
-    EXPECT_LT((as_row(ring(), limit_mask(kind(), valence(), alpha)) - expected).norm(), kTolerance);
-    EXPECT_LT((as_row(ring(), vertex_mask(kind(), valence(), alpha)) - step.row(0)).norm(), kTolerance);
+    EXPECT_LT((as_row(ring(), limit_mask(kind(), valence(), alpha)) - expected).norm(), kRounding);
+    EXPECT_LT((as_row(ring(), vertex_mask(kind(), valence(), alpha)) - step.row(0)).norm(), kRounding);
   }
 }
 
@@ -180,15 +179,15 @@ INSTANTIATE_TEST_SUITE_P(Masks, CreaseVertex, ::testing::Combine(kBothSchemes, :
 TEST_P(CreaseVertex, LimitMaskIsThatOfTheCubicSpline) {
   Eigen::RowVectorXd mask = kCreaseLimitVertex * ring().unit(0);
   mask += kCreaseLimitNeighbour * (ring().unit(1) + ring().unit(ring().edges));
-  EXPECT_LT(residual(mask, 1.0).norm(), kTolerance);
+  EXPECT_LT(residual(mask, 1.0).norm(), kRounding);
 }
 
 TEST_P(CreaseVertex, TangentsSumToZeroAndTheFirstRunsAlong) {
   for (const auto choice : {CreaseTangents::Exact, CreaseTangents::OpenSubdiv}) {
     const TangentMasks tangents = crease_tangents(kind(), faces(), choice);
     const Eigen::RowVectorXd along = as_row(ring(), tangents.first);
-    EXPECT_LT((along / along[1] - (ring().unit(1) - ring().unit(ring().edges))).norm(), kTolerance);
-    EXPECT_LT(residual(along, 0.5).norm(), kTolerance);
+    EXPECT_LT((along / along[1] - (ring().unit(1) - ring().unit(ring().edges))).norm(), kRounding);
+    EXPECT_LT(residual(along, 0.5).norm(), kRounding);
     EXPECT_NEAR(as_row(ring(), tangents.second).sum(), 0.0, 1e-12);
   }
 }
@@ -210,7 +209,7 @@ TEST_P(CreaseVertex, ExactCrossTangentIsALeftEigenvectorWhereOneExists) {
 TEST_P(CreaseVertex, CrossTangentPointsInwardSoThatTheNormalPointsOutward) {
   Eigen::MatrixXd points = Eigen::MatrixXd::Zero(ring().size(), 2);
   for (int j = 0; j <= faces(); ++j)
-    points.row(ring().edge(j)) << std::cos(kPi * j / faces()), std::sin(kPi * j / faces());
+    points.row(ring().edge(j)) << std::cos(std::numbers::pi * j / faces()), std::sin(std::numbers::pi * j / faces());
   if (kind() == SchemeKind::CatmullClark) {
     for (int j = 0; j < faces(); ++j) points.row(ring().face(j)) = points.row(1 + j) + points.row(2 + j);
   }
@@ -232,12 +231,12 @@ TEST(Masks, EigenvaluesOfCatmullClarkAreThoseOfTheTable) {
   for (const auto& [valence, lambda] : table) {
     EXPECT_NEAR(subdominant_eigenvalue(SchemeKind::CatmullClark, valence), lambda, 5e-11) << valence;  // ten digits
   }
-  EXPECT_NEAR(subdominant_eigenvalue(SchemeKind::CatmullClark, 3), (9.0 + kRoot17) / 32.0, kTolerance);
+  EXPECT_NEAR(subdominant_eigenvalue(SchemeKind::CatmullClark, 3), (9.0 + kRoot17) / 32.0, kRounding);
 }
 
 void expect_proportional(const std::vector<double>& weights, const std::vector<double>& table, double scale) {
   ASSERT_EQ(weights.size(), table.size());
-  for (std::size_t i = 0; i < table.size(); ++i) EXPECT_NEAR(weights[i], scale * table[i], kTolerance) << i;
+  for (std::size_t i = 0; i < table.size(); ++i) EXPECT_NEAR(weights[i], scale * table[i], kRounding) << i;
 }
 
 TEST(Masks, TangentsOfValenceFourAreThoseOfTheTable) {
@@ -265,12 +264,12 @@ TEST(Masks, OpenSubdivsCrossTangentsAreThoseOfTheTable) {
     EXPECT_EQ(cross(kind, 1).vertex, -6.0);
     expect_proportional(cross(kind, 1).edges, {3, 3}, 1.0);
   }
-  EXPECT_NEAR(cross(SchemeKind::CatmullClark, 2).vertex, -4.0 / 6.0, kTolerance);
+  EXPECT_NEAR(cross(SchemeKind::CatmullClark, 2).vertex, -4.0 / 6.0, kRounding);
   expect_proportional(cross(SchemeKind::CatmullClark, 2).edges, {-1, 4, -1}, 1.0 / 6.0);
   expect_proportional(cross(SchemeKind::CatmullClark, 2).faces, {1, 1}, 1.0 / 6.0);
   EXPECT_EQ(cross(SchemeKind::Loop, 2).vertex, -3.0);
   expect_proportional(cross(SchemeKind::Loop, 2).edges, {0, 3, 0}, 1.0);
-  EXPECT_NEAR(cross(SchemeKind::Loop, 3).vertex, -std::sqrt(3.0), kTolerance);
+  EXPECT_NEAR(cross(SchemeKind::Loop, 3).vertex, -std::sqrt(3.0), kRounding);
   expect_proportional(cross(SchemeKind::Loop, 3).edges, {-0.5, 1, 1, -0.5}, std::sqrt(3.0));
   EXPECT_EQ(cross(SchemeKind::Loop, 4).vertex, 0.0);
 }
@@ -281,8 +280,8 @@ TEST(Masks, SmoothTriangleRuleWeighsEachSideByItsFace) {
   scheme.triangle_rule = TriangleRule::Smooth;
   for (const auto& [triangles, face] : std::vector<std::pair<int, double>>{{0, 0.25}, {1, 0.36}, {2, 0.47}}) {
     const EdgeMask mask = edge_mask(scheme, triangles);
-    EXPECT_NEAR(mask.face, face, kTolerance);
-    EXPECT_NEAR(2.0 * mask.end + 2.0 * mask.face, 1.0, kTolerance);
+    EXPECT_NEAR(mask.face, face, kRounding);
+    EXPECT_NEAR(2.0 * mask.end + 2.0 * mask.face, 1.0, kRounding);
   }
   scheme.kind = SchemeKind::Loop;
   EXPECT_EQ(edge_mask(scheme, 2).end, 0.375);
@@ -292,8 +291,8 @@ TEST(Masks, SmoothTriangleRuleWeighsEachSideByItsFace) {
 TEST(Masks, LimitMaskHoldsForValenceTwo) {
   const Ring ring{SchemeKind::CatmullClark, 2, true};
   const Eigen::RowVectorXd mask = as_row(ring, limit_mask(SchemeKind::CatmullClark, 2));
-  EXPECT_LT((14.0 * mask - (Eigen::RowVectorXd(5) << 4, 4, 4, 1, 1).finished()).norm(), kTolerance);
-  EXPECT_LT((mask * refinement_matrix(ring) - mask).norm(), kTolerance);
+  EXPECT_LT((14.0 * mask - (Eigen::RowVectorXd(5) << 4, 4, 4, 1, 1).finished()).norm(), kRounding);
+  EXPECT_LT((mask * refinement_matrix(ring) - mask).norm(), kRounding);
 }
 
 }  // namespace

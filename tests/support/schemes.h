@@ -10,6 +10,9 @@ inline Scheme scheme_of(SchemeKind kind) {
   return scheme;
 }
 
+inline const Scheme kCatmullClark = scheme_of(SchemeKind::CatmullClark);
+inline const Scheme kLoop = scheme_of(SchemeKind::Loop);
+
 inline Scheme scheme_of(SchemeKind kind, BoundaryRule boundary) {
   Scheme scheme = scheme_of(kind);
   scheme.boundary = boundary;

@@ -65,7 +65,9 @@ std::vector<SurfacePlace> places_of(const Topology& base, Index face) {
 }
 
 TEST(HighValence, WeightsGiveWhatTheSurfaceGives) {
-  for (const auto& [mesh, scheme] : cases()) {
+  for (const Case& tested : cases()) {
+    const Mesh& mesh = tested.mesh;
+    const Scheme& scheme = tested.scheme;
     const SurfacePatches patches(Topology(mesh), scheme);
     const LimitSurface surface(patches, mesh.points);
     const SurfaceWeights weights(patches);
