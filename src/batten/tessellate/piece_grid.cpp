@@ -45,6 +45,24 @@ void combine_many(Scalar* __restrict out, const Scalar* origin, const Scalar* co
   }
 }
 
+/// out: the given rows less the origin, where they are not missing. K is the number of columns, 0 when it is known only
+/// at run time. False when a row is missing.
+template <int K, typename Scalar>
+bool gather_rows(const double* values, std::ptrdiff_t stride, const Index* rows, int count, int columns,
+                 const Scalar* origin, Scalar* __restrict out) {
+  const int k = K > 0 ? K : columns;
+  bool complete = true;
+  for (int i = 0; i < count; ++i, out += k) {
+    if (rows[i] == RegularPatch::kMissing) {
+      complete = false;
+      continue;
+    }
+    const double* from = values + rows[i] * stride;
+    for (int c = 0; c < k; ++c) out[c] = static_cast<Scalar>(from[c] - origin[c]);
+  }
+  return complete;
+}
+
 /// Tangents of any length will do, but their products must not leave the range of Scalar.
 template <typename Scalar>
 void scale_to_one(Scalar* control, const Index* rows, int count, int columns) {
@@ -76,13 +94,11 @@ void GridFiller<Scalar>::gather(const Piece& piece, int count, int columns) {
   Index middle = 0;
   while (rows[middle] == RegularPatch::kMissing) ++middle;
   for (int c = 0; c < columns; ++c) origin_[c] = static_cast<Scalar>(values(rows[middle], c));
-  bool complete = true;
-  for (int i = 0; i < count; ++i) {
-    complete = complete && rows[i] != RegularPatch::kMissing;
-    if (rows[i] == RegularPatch::kMissing) continue;
-    const double* from = values.data() + rows[i] * values.outerStride();
-    for (int c = 0; c < columns; ++c) control_[i * columns + c] = static_cast<Scalar>(from[c] - origin_[c]);
-  }
+  const double* first = values.data();
+  const std::ptrdiff_t stride = values.outerStride();
+  const bool complete = columns == 3
+                            ? gather_rows<3>(first, stride, rows, count, columns, origin_.data(), control_.data())
+                            : gather_rows<0>(first, stride, rows, count, columns, origin_.data(), control_.data());
   if (complete) return;
   complete_patch(quads_, rows, control_.data(), columns);
 }

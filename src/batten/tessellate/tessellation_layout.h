@@ -102,10 +102,11 @@ class GridWriter {
             std::ptrdiff_t count) const {
     const std::ptrdiff_t k = grid.columns;
     Scalar* __restrict to = out_ + vertex * k;
-    if (k == 3 && step == 1) {
+    if (k == 3) {
       const Scalar* __restrict x = grid.plane(0) + place;
       const Scalar* __restrict y = grid.plane(1) + place;
       const Scalar* __restrict z = grid.plane(2) + place;
+      if (step != 1) return copy_apart(to, x, y, z, step, count);
       for (std::ptrdiff_t i = 0; i < count; ++i) {
         to[3 * i] = x[i];
         to[3 * i + 1] = y[i];
@@ -116,6 +117,16 @@ class GridWriter {
     for (int c = 0; c < k; ++c) {
       const Scalar* from = grid.plane(c) + place;
       for (std::ptrdiff_t i = 0; i < count; ++i) to[k * i + c] = from[step * i];
+    }
+  }
+
+  /// Three planes at points that are `step` apart.
+  static void copy_apart(Scalar* __restrict to, const Scalar* __restrict x, const Scalar* __restrict y,
+                         const Scalar* __restrict z, std::ptrdiff_t step, std::ptrdiff_t count) {
+    for (std::ptrdiff_t i = 0; i < count; ++i, to += 3, x += step, y += step, z += step) {
+      to[0] = *x;
+      to[1] = *y;
+      to[2] = *z;
     }
   }
 
