@@ -174,6 +174,44 @@ TEST(Topology, ComponentsAreNumberedByTheirLowestVertex) {
 }
 
 /// Searching each spoke among 100,000 would take 10^10 steps: half a minute.
+/// Long strips side by side, whose vertices are numbered in no order, so that several threads join the same trees.
+TEST(Topology, ComponentsAreTheSameForAnyNumberOfThreads) {
+  constexpr Index kStrips = 7;
+  constexpr Index kLength = 20000;
+  const Index vertex_count = 2 * kStrips * (kLength + 1);
+  const auto number_of = [&](Index strip, Index side, Index i) {
+    const std::int64_t place = 2 * (std::int64_t{strip} * (kLength + 1) + i) + side;
+    return static_cast<Index>(place * 7919 % vertex_count);
+  };
+  Mesh mesh;
+  mesh.points = Values::Zero(vertex_count, 3);
+  std::vector<Index> strip_of(static_cast<std::size_t>(vertex_count));
+  mesh.face_offsets.assign(1, 0);
+  for (Index i = 0; i <= kLength; ++i) {
+    for (Index s = 0; s < kStrips; ++s) {
+      strip_of[number_of(s, 0, i)] = strip_of[number_of(s, 1, i)] = s;
+      if (i == kLength) continue;
+      for (const Index v : {number_of(s, 0, i), number_of(s, 0, i + 1), number_of(s, 1, i + 1), number_of(s, 1, i)})
+        mesh.face_vertices.push_back(v);
+      mesh.face_offsets.push_back(static_cast<Index>(mesh.face_vertices.size()));
+    }
+  }
+  std::vector<Index> number_of_strip(kStrips, -1);
+  std::vector<Index> expected;
+  Index count = 0;
+  for (const Index strip : strip_of) {
+    if (number_of_strip[strip] < 0) number_of_strip[strip] = count++;
+    expected.push_back(number_of_strip[strip]);
+  }
+  const Topology topology(mesh);
+  for (const int threads : {1, 2, 4}) {
+    const ThreadLimit limit(threads);
+    const Components components = connected_components(topology);
+    EXPECT_EQ(components.count, kStrips);
+    EXPECT_TRUE(std::equal(expected.begin(), expected.end(), components.of_vertex.begin())) << threads;
+  }
+}
+
 TEST(Topology, APoleOfAHundredThousandFacesTakesNoQuadraticTime) {
   const Mesh mesh = test::bipyramid(100000);
   const auto start = std::chrono::steady_clock::now();

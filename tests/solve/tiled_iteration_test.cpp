@@ -18,7 +18,7 @@ using test::random_values;
 /// Rows in `held` keep their values. D^-1 A has the spectrum [1/4, 9/4] (docs/mathematics.md, Interpolation).
 class TorusRows : public RowSource {
  public:
-  explicit TorusRows(Index n, Index held = 0) : RowSource(flags(n * n, held)), n_(n) {}
+  explicit TorusRows(Index n, Index held = 0) : RowSource(n * n, flags(n * n, held)), n_(n) {}
   void row(Index row, RowEntries& entries) const override {
     static constexpr double kWeights[] = {1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0};
     for (Index i = 0; i < 3; ++i) {

@@ -5,6 +5,7 @@
 
 #include "batten/error.h"
 #include "batten/expand/cotangent_rows.h"
+#include "batten/limit/ring_rows.h"
 #include "batten/mesh/checked_values.h"
 #include "batten/parallel/parallel.h"
 #include "batten/solve/tiled_polynomial.h"
@@ -13,24 +14,37 @@ namespace batten {
 
 namespace {
 
+/// The smooth vertices with two faces, block by block.
+std::vector<Buffer<Index>> vertices_of_valence_two(const Topology& topology) {
+  std::vector<Buffer<Index>> found(static_cast<std::size_t>(block_count(topology.vertex_count())));
+  parallel_for(topology.vertex_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (auto v = static_cast<Index>(begin); v < end; ++v) {
+      if (topology.is_isolated(v) || topology.is_boundary_vertex(v)) continue;
+      const Index first = topology.vertex_half_edge(v);
+      const Index second = topology.twin(topology.previous(first));
+      if (second == first || topology.twin(topology.previous(second)) == first)
+        found[begin / kDefaultBlock].push_back(v);
+    }
+  });
+  return found;
+}
+
 /// Alpha = 1 at the components with a smooth vertex of valence 2, or nothing where there is none.
 std::vector<double> safe_alpha(const Topology& topology, const Scheme& scheme) {
   if (scheme.kind == SchemeKind::Loop) return {};
-  Buffer<Index> found;
-  for (Index v = 0; v < topology.vertex_count(); ++v) {
-    if (topology.is_isolated(v) || topology.is_boundary_vertex(v)) continue;
-    const Index first = topology.vertex_half_edge(v);
-    const Index second = topology.twin(topology.previous(first));
-    if (second == first || topology.twin(topology.previous(second)) == first) found.push_back(v);
-  }
-  if (found.empty()) return {};
+  const std::vector<Buffer<Index>> found = vertices_of_valence_two(topology);
+  if (std::all_of(found.begin(), found.end(), [](const Buffer<Index>& block) { return block.empty(); })) return {};
   const Components components = connected_components(topology);
   std::vector<std::uint8_t> marked(static_cast<std::size_t>(components.count), 0);
-  for (const Index v : found) marked[components.of_vertex[v]] = 1;
-  std::vector<double> alpha(static_cast<std::size_t>(topology.vertex_count()), scheme.alpha);
-  for (Index v = 0; v < topology.vertex_count(); ++v) {
-    if (marked[components.of_vertex[v]] != 0) alpha[v] = kValenceTwoAlpha;
+  for (const Buffer<Index>& block : found) {
+    for (const Index v : block) marked[components.of_vertex[v]] = 1;
   }
+  std::vector<double> alpha(static_cast<std::size_t>(topology.vertex_count()), scheme.alpha);
+  parallel_for(topology.vertex_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (std::ptrdiff_t v = begin; v < end; ++v) {
+      if (marked[components.of_vertex[v]] != 0) alpha[v] = kValenceTwoAlpha;
+    }
+  });
   return alpha;
 }
 
@@ -40,11 +54,15 @@ class KeptRows : public RowSource {
   KeptRows(const LimitMatrix& matrix, const Buffer<std::uint8_t>& kept)
       : RowSource(matrix.topology().vertex_count()), matrix_(matrix), kept_(kept) {}
   void row(Index row, RowEntries& entries) const override {
-    if (!kept_.empty() && kept_[row] != 0) return entries.add(row, 1.0);
+    if (is_kept(row)) return entries.add(row, 1.0);
     matrix_.visit_row(row, [&](Index column, double weight) { entries.add(column, weight); });
   }
+  Index weights_key(Index row) const override { return is_kept(row) ? 0 : ring_key(matrix_, row); }
+  void columns_of(Index row, Index* columns) const override { ring_columns(matrix_, row, columns); }
 
  private:
+  bool is_kept(Index row) const { return !kept_.empty() && kept_[row] != 0; }
+
   const LimitMatrix& matrix_;
   const Buffer<std::uint8_t>& kept_;
 };

@@ -25,7 +25,7 @@ void solve_refined(const Factors& factors, const SparseMatrix& a, const Values& 
 }  // namespace
 
 FreeBlock::FreeBlock(const LimitMatrix& matrix, Buffer<std::uint8_t> free)
-    : RowSource(std::move(free)), matrix_(matrix) {
+    : RowSource(matrix.topology().vertex_count(), std::move(free)), matrix_(matrix) {
   for (Index v = 0; v < size(); ++v) {
     if (!is_free(v)) continue;
     ++free_count_;
@@ -38,6 +38,7 @@ void FreeBlock::row(Index row, RowEntries& entries) const {
 }
 
 void FreeBlock::mask(Values& values) const {
+  if (all_free()) return;
   parallel_for(values.rows(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (std::ptrdiff_t v = begin; v < end; ++v) {
       if (!is_free(static_cast<Index>(v))) values.row(v).setZero();

@@ -1,6 +1,6 @@
 /// \file The free rows of the limit matrix as a linear system, for the solvers.
 #pragma once
-#include "batten/limit/limit_matrix.h"
+#include "batten/limit/ring_rows.h"
 #include "batten/solve/solver.h"
 #include "batten/solve/tiled_iteration.h"
 
@@ -9,10 +9,12 @@ namespace batten {
 /// Which rows of a limit matrix are unknowns; the others hold their values.
 class FreeBlock : public RowSource {
  public:
-  /// free: one flag a vertex.
+  /// free: one flag a vertex, or empty where all rows are unknowns.
   FreeBlock(const LimitMatrix& matrix, Buffer<std::uint8_t> free);
 
   void row(Index row, RowEntries& entries) const override;
+  Index weights_key(Index row) const override { return ring_key(matrix_, row); }
+  void columns_of(Index row, Index* columns) const override { ring_columns(matrix_, row, columns); }
 
   Index free_count() const { return free_count_; }
   /// True when the free rows are symmetric after scaling: smooth rows only.

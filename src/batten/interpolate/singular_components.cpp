@@ -40,7 +40,7 @@ std::vector<SingularComponent> find_singular_components(const LimitMatrix& matri
   const Topology& topology = matrix.topology();
   Buffer<std::int8_t> sign(static_cast<std::size_t>(topology.vertex_count()), 0);
   for (Index v = 0; v < topology.vertex_count(); ++v) {
-    if (sign[v] != 0 || matrix.row_kind(v) != LimitRow::Smooth || matrix.alpha(v) != 0.0 || matrix.face_count(v) != 3) {
+    if (matrix.face_count(v) != 3 || sign[v] != 0 || matrix.row_kind(v) != LimitRow::Smooth || matrix.alpha(v) != 0.0) {
       continue;
     }
     SingularComponent component;

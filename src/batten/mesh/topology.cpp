@@ -315,31 +315,69 @@ void require_vertex_rows(const Topology& topology, ConstValuesRef values) {
                                        std::to_string(topology.vertex_count()) + " vertices; give one row a vertex");
 }
 
-/// Trees whose roots are the lowest vertices of what is joined so far; each face joins its corners.
-Components connected_components(const Topology& topology) {
-  Components components;
-  Buffer<Index>& parent = components.of_vertex;
-  parent.resize(static_cast<std::size_t>(topology.vertex_count()));
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root_of = [&](Index v) {
-    while (parent[v] != v) {
-      parent[v] = parent[parent[v]];
-      v = parent[v];
+namespace {
+
+/// Trees of vertices whose roots are the lowest of what is joined so far. Several threads may join at a time: a root is
+/// only ever put below a lower vertex, so that the trees that come out in the end have the same roots whoever came
+/// first.
+class VertexTrees {
+ public:
+  explicit VertexTrees(Buffer<Index>& parents) : parents_(parents) {}
+
+  Index root_of(Index v) {
+    for (Index parent = load(v); parent != v; parent = load(v)) {
+      const Index next = load(parent);
+      if (next != parent) __atomic_store_n(&parents_[v], next, __ATOMIC_RELAXED);
+      v = next;
     }
     return v;
-  };
-  for (Index f = 0; f < topology.face_count(); ++f) {
-    Index root = root_of(topology.origin(topology.face_begin(f)));
-    for (Index h = topology.face_begin(f) + 1; h < topology.face_end(f); ++h) {
-      const Index other = root_of(topology.origin(h));
-      if (other == root) continue;
-      parent[std::max(root, other)] = std::min(root, other);
-      root = std::min(root, other);
+  }
+  void join(Index a, Index b) {
+    while (true) {
+      a = root_of(a);
+      b = root_of(b);
+      if (a == b) return;
+      Index high = std::max(a, b);
+      if (__atomic_compare_exchange_n(&parents_[high], &high, std::min(a, b), false, __ATOMIC_RELAXED,
+                                      __ATOMIC_RELAXED)) {
+        return;
+      }
     }
   }
-  // A parent is lower than its children, so it has its number before them.
-  for (Index v = 0; v < topology.vertex_count(); ++v)
-    parent[v] = parent[v] == v ? components.count++ : parent[parent[v]];
+
+ private:
+  Index load(Index v) const { return __atomic_load_n(&parents_[v], __ATOMIC_RELAXED); }
+
+  Buffer<Index>& parents_;
+};
+
+}  // namespace
+
+Components connected_components(const Topology& topology) {
+  Components components;
+  Buffer<Index>& roots = components.of_vertex;
+  const Index vertex_count = topology.vertex_count();
+  roots.resize(static_cast<std::size_t>(vertex_count));
+  parallel_for(vertex_count, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    std::iota(roots.begin() + begin, roots.begin() + end, static_cast<Index>(begin));
+  });
+  VertexTrees trees(roots);
+  parallel_for(topology.face_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (auto f = static_cast<Index>(begin); f < end; ++f) {
+      const Index first = topology.origin(topology.face_begin(f));
+      for (Index h = topology.face_begin(f) + 1; h < topology.face_end(f); ++h) trees.join(first, topology.origin(h));
+    }
+  });
+  // Roots are numbered in order; then each vertex takes the number of its root.
+  Buffer<Index> numbers(roots.size());
+  for (Index v = 0; v < vertex_count; ++v) {
+    if (roots[v] == v) numbers[v] = components.count++;
+  }
+  Buffer<Index> of_vertex(roots.size());
+  parallel_for(vertex_count, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (auto v = static_cast<Index>(begin); v < end; ++v) of_vertex[v] = numbers[trees.root_of(v)];
+  });
+  components.of_vertex = std::move(of_vertex);
   return components;
 }
 

@@ -58,6 +58,26 @@ class PatternIndex {
   Index last_ = -1;
 };
 
+/// Writes the free columns of a row off the diagonal, and their weights; what is held goes to `held`.
+void add_free(const RowSource& source, Index row, const RowEntries& entries, Index* columns, RowWeights& weights,
+              std::vector<HeldEntry>& held) {
+  const std::size_t most = entries.columns.size();
+  if (weights.off_diagonal.size() < most) weights.off_diagonal.resize(most);
+  weights.diagonal = 0.0;
+  weights.count = 0;
+  for (std::size_t i = 0; i < most; ++i) {
+    const Index column = entries.columns[i];
+    if (column == row) {
+      weights.diagonal += entries.weights[i];
+    } else if (source.is_free(column)) {
+      columns[weights.count] = column;
+      weights.off_diagonal[weights.count++] = entries.weights[i];
+    } else {
+      held.push_back({row, column, entries.weights[i]});
+    }
+  }
+}
+
 }  // namespace
 
 RowTable::RowTable(const RowSource& source, const Progress& progress)
@@ -77,34 +97,39 @@ void RowTable::fill(const RowSource& source, Index first, Index last, Found& fou
   PatternIndex index(found.patterns);
   RowEntries entries;
   RowWeights weights;
+  Buffer<Index> pattern_of_key;
   Buffer<Index>& columns = block_columns_[first / kBlock];
-  columns.reserve(static_cast<std::size_t>(last - first) * 9);
+  columns.resize(static_cast<std::size_t>(last - first) * 9);
+  std::size_t used = 0;
+  const auto make_room = [&](std::size_t count) {
+    if (used + count > columns.size()) columns.resize(std::max(2 * columns.size(), used + count));
+    return columns.data() + used;
+  };
   for (Index row = first; row < last; ++row) {
-    const std::size_t begin = columns.size();
-    places_[row] = {static_cast<Index>(begin), -1};
+    places_[row] = {static_cast<Index>(used), -1};
     if (!source.is_free(row)) continue;
     ++found.free_count;
-    entries.clear();
-    source.row(row, entries);
-    const std::size_t most = entries.columns.size();
-    columns.resize(begin + most);
-    if (weights.off_diagonal.size() < most) weights.off_diagonal.resize(most);
-    weights.diagonal = 0.0;
-    weights.count = 0;
-    for (std::size_t i = 0; i < most; ++i) {
-      const Index column = entries.columns[i];
-      if (column == row) {
-        weights.diagonal += entries.weights[i];
-      } else if (source.is_free(column)) {
-        columns[begin + weights.count] = column;
-        weights.off_diagonal[weights.count++] = entries.weights[i];
-      } else {
-        found.held.push_back({row, column, entries.weights[i]});
+    const auto key = static_cast<std::size_t>(source.weights_key(row));
+    if (key >= pattern_of_key.size()) pattern_of_key.resize(key + 1, -1);
+    if (const Index pattern = pattern_of_key[key]; pattern >= 0) {
+      const std::size_t count = found.patterns[pattern].weights.size();
+      Index* begin = make_room(count);
+      source.columns_of(row, begin);
+      if (source.all_free() || std::all_of(begin, begin + count, [&](Index c) { return source.is_free(c); })) {
+        places_[row].pattern = pattern;
+        used += count;
+        continue;
       }
     }
-    columns.resize(begin + weights.count);
+    entries.clear();
+    source.row(row, entries);
+    add_free(source, row, entries, make_room(entries.columns.size()), weights, found.held);
     places_[row].pattern = index.find_or_add(weights);
+    used += weights.count;
+    const bool complete = weights.count + 1 == entries.columns.size();
+    if (key > 0 && complete) pattern_of_key[key] = places_[row].pattern;
   }
+  columns.resize(used);
 }
 
 void RowTable::merge(std::vector<Found>& found) {

@@ -46,11 +46,24 @@ double power_step(const Tiling& tiling, const Tile& tile, int last_ring, const f
   return most;
 }
 
+/// The step from u = 1, in which the rows of a segment do not differ.
+double first_step(const Tiling& tiling, const Tile& tile, int last_ring, float* next) {
+  double most = 0.0;
+  for (Index s = 0; s < tile.segment_end[last_ring]; ++s) {
+    const TileSegment& segment = tile.segments[s];
+    float sum = 1.0F;
+    for (const float weight : tiling.patterns[segment.pattern].normalised) sum += std::abs(weight);
+    std::fill_n(next + segment.first_row, segment.row_count, 0.5F * sum);
+    if (s < tile.segment_end[0]) most = std::max(most, static_cast<double>(sum));
+  }
+  return most;
+}
+
 Ratios tile_ratios(const Tiling& tiling, const Tile& tile) {
   PowerScratch& scratch = scratch_for<PowerScratch>(tile);
-  std::fill_n(scratch.u.begin(), tile.ring_end[kBoundSteps], 1.0F);
   Ratios ratios;
-  for (int step = 0; step < kBoundSteps; ++step) {
+  ratios[0] = first_step(tiling, tile, kBoundSteps - 1, scratch.u.data());
+  for (int step = 1; step < kBoundSteps; ++step) {
     ratios[step] = power_step(tiling, tile, kBoundSteps - 1 - step, scratch.u.data(), scratch.next.data());
     std::swap(scratch.u, scratch.next);
   }

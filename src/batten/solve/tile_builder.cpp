@@ -4,12 +4,13 @@
 #include <array>
 #include <numeric>
 
+#include "batten/parallel/parallel.h"
+
 namespace batten {
 
 namespace {
 
-constexpr Index kMostLocals = 65536;  // what 16 bits count
-constexpr Index kAhead = 12;          // rows to prefetch ahead: memory answers in the time of about so many
+constexpr Index kAhead = 12;  // rows to prefetch ahead: memory answers in the time of about so many
 
 /// Sorts items by pattern, equal ones as they stand. Nearly all tiles have a handful of patterns, which are counted.
 /// pattern_of: of each item, in their order. spare: memory.
@@ -55,37 +56,30 @@ void sort_stably(Index* items, Index count, const Index* pattern_of, Buffer<Inde
 
 }  // namespace
 
-void LocalPlaces::clear(Index expected) {
+void LocalPlaces::clear(Index row_count) {
+  for (const Index row : rows_) directory_[row >> kPageBits] = 0;
   rows_.clear();
-  int bits = 8;
-  while ((std::size_t{1} << bits) < 2 * static_cast<std::size_t>(expected)) ++bits;
-  reset_table(std::max(bits, table_.empty() ? 0 : 32 - shift_));
+  pages_.assign(kPageRows, kMost);
+  const auto runs = static_cast<std::size_t>(block_count(row_count, kPageRows));
+  if (directory_.size() < runs) directory_.assign(runs, 0);
 }
 
-void LocalPlaces::reset_table(int bits) {
-  table_.assign(std::size_t{1} << bits, {-1, -1});
-  mask_ = table_.size() - 1;
-  shift_ = 32 - bits;
-}
-
-Index LocalPlaces::add(std::size_t slot, Index row) {
-  const auto place = static_cast<Index>(rows_.size());
-  rows_.push_back(row);
-  table_[slot] = {row, place};
-  if (2 * rows_.size() > table_.size()) {
-    reset_table(33 - shift_);
-    for (Index i = 0; i <= place; ++i) {
-      slot = slot_of(rows_[i]);
-      while (table_[slot].row >= 0) slot = (slot + 1) & mask_;
-      table_[slot] = {rows_[i], i};
-    }
+Index LocalPlaces::add(Index row) {
+  const Index place = count();
+  if (place == kMost) return kMost;
+  std::uint16_t& page = directory_[row >> kPageBits];
+  if (page == 0) {
+    page = static_cast<std::uint16_t>(pages_.size() / kPageRows);
+    pages_.resize(pages_.size() + kPageRows, kMost);
   }
+  pages_[slot_of(row)] = static_cast<std::uint16_t>(place);
+  rows_.push_back(row);
   return place;
 }
 
 bool TileBuilder::build(const RowTable& rows, Index* own, Tile& tile) {
   sort_by_pattern(rows, own, tile.own_count, own);
-  places_.clear(tile.own_count + tile.own_count / 2);
+  places_.clear(rows.size());
   for (Index i = 0; i < tile.own_count; ++i) places_.find_or_add(own[i]);
   if (!add_rings(rows, tile)) return false;
   sort_rings(rows, tile);
@@ -118,10 +112,10 @@ bool TileBuilder::add_rings(const RowTable& rows, Tile& tile) {
       if (used + count > entries_.size()) entries_.resize(2 * (used + count));
       for (Index k = 0; k < count; ++k) entries_[used + k] = places_.find_or_add(columns[k]);
       used += count;
+      if (places_.count() == LocalPlaces::kMost) return false;
     }
     begin = end;
     tile.ring_end[ring] = places_.count();
-    if (tile.ring_end[ring] > kMostLocals) return false;
   }
   return true;
 }

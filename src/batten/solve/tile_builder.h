@@ -6,21 +6,21 @@
 
 namespace batten {
 
-/// The places of some thousand rows in a tile: a hash table with linear probing, so that its memory follows the tile
-/// and not the system.
+/// The places of some thousand rows in a tile. Rows that follow each other share a page of places, and a directory has
+/// the page of each row, so that a row is found without a search. Memory: a page for each run of rows that is met, and
+/// 1/16 byte for each row of the system.
 class LocalPlaces {
  public:
-  /// Forgets all rows; room for `expected` before it must grow.
-  void clear(Index expected);
+  /// How many rows can have places.
+  static constexpr Index kMost = 65535;
 
-  /// The place of a row; gives it the next one, counted from 0, if it has none.
+  /// Forgets all rows. Rows are then numbers below `row_count`.
+  void clear(Index row_count);
+
+  /// The place of a row; gives it the next one, counted from 0, if it has none. kMost when there are no more.
   Index find_or_add(Index row) {
-    std::size_t slot = slot_of(row);
-    while (table_[slot].row != row) {
-      if (table_[slot].row < 0) return add(slot, row);
-      slot = (slot + 1) & mask_;
-    }
-    return table_[slot].place;
+    const std::uint16_t place = pages_[slot_of(row)];
+    return place != kMost ? place : add(row);
   }
 
   /// The rows in the order of their places.
@@ -28,27 +28,26 @@ class LocalPlaces {
   Index count() const { return static_cast<Index>(rows_.size()); }
 
  private:
-  struct Slot {
-    Index row;
-    Index place;
-  };
-  std::size_t slot_of(Index row) const {
-    return static_cast<std::size_t>((static_cast<std::uint32_t>(row) * 0x9E3779B9U) >> shift_);
-  }
-  Index add(std::size_t slot, Index row);
-  void reset_table(int bits);
+  static constexpr int kPageBits = 5;
+  static constexpr Index kPageRows = Index{1} << kPageBits;
 
-  Buffer<Slot> table_;
-  std::size_t mask_ = 0;
-  int shift_ = 0;
+  std::size_t slot_of(Index row) const {
+    return static_cast<std::size_t>(directory_[row >> kPageBits]) * kPageRows +
+           static_cast<std::size_t>(row & (kPageRows - 1));
+  }
+  Index add(Index row);
+
+  Buffer<std::uint16_t> directory_;  ///< the page of each run of rows; page 0, where no row was met
+  Buffer<std::uint16_t> pages_;      ///< places, kMost for a row that has none; page 0 stays empty
   Buffer<Index> rows_;
 };
 
-/// Builds tile after tile. A thread keeps one of these for its work: some 200 KB, whatever the system's size.
+/// Builds tile after tile. A thread keeps one of these for its work: some 500 KB and 1/16 byte for each row of the
+/// system.
 class TileBuilder {
  public:
   /// own: the tile's rows, which it sorts by pattern. Its ghosts come as rows, not as unknowns. False when the tile
-  /// would have more than 65,536 unknowns.
+  /// would have more than 65,535 unknowns.
   bool build(const RowTable& rows, Index* own, Tile& tile);
 
  private:

@@ -8,6 +8,7 @@
 /// one pass through memory every `kStepsPerRound` steps. Residuals are measured in double between the rounds the next
 /// round goes on from there with corrections in float, so that the result is as exact as double allows.
 #pragma once
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -36,14 +37,23 @@ class RowSource {
   virtual ~RowSource() = default;
   Index size() const { return size_; }
   bool is_free(Index row) const { return free_.empty() || free_[row] != 0; }
+  bool all_free() const { return free_.empty(); }
   /// Appends the entries of a free row; the diagonal must be positive. Called from several threads.
   virtual void row(Index row, RowEntries& entries) const = 0;
+
+  /// A number from 1 on that tells the weights of a row: rows of the same number have the same weights in the same
+  /// order, row() gives their diagonal entry last, and only there. 0 for a row of which this is not known.
+  virtual Index weights_key(Index /*row*/) const { return 0; }
+  /// Writes the columns that row() gives for a row with a weights_key(), but for the diagonal's.
+  virtual void columns_of(Index /*row*/, Index* /*columns*/) const {}
 
  protected:
   /// All rows are free.
   explicit RowSource(Index size) : size_(size) {}
-  /// free: one flag a row.
-  explicit RowSource(Buffer<std::uint8_t> free) : size_(static_cast<Index>(free.size())), free_(std::move(free)) {}
+  /// free: one flag a row, or empty where all rows are free.
+  RowSource(Index size, Buffer<std::uint8_t> free) : size_(size) {
+    if (std::find(free.begin(), free.end(), 0) != free.end()) free_ = std::move(free);
+  }
 
  private:
   Index size_;
