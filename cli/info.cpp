@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <optional>
+
+#include "batten/error.h"
 #include "batten/mesh/check.h"
 #include "batten/mesh/places.h"
 #include "batten/mesh/seams.h"
@@ -181,7 +184,6 @@ KindName name_of(ErrorCode kind) {
 /// The count of each kind, and the first few; the advice once.
 void describe_problems(const std::vector<MeshProblem>& problems, Table& table, Json& json) {
   constexpr std::size_t kShown = 3;
-  json["problems"] = Json::array();
   for (const MeshProblem& problem : problems) {
     const KindName name = name_of(problem.kind);
     table.add("problem", count_of(static_cast<std::int64_t>(problem.count), name.one, name.many));
@@ -194,8 +196,19 @@ void describe_problems(const std::vector<MeshProblem>& problems, Table& table, J
   }
 }
 
+/// True where no step of a repair has anything to do: no fault, no open edge to weld, no vertex without a face.
+bool is_whole(const std::optional<Topology>& topology) {
+  if (!topology) return false;
+  for (Index v = 0; v < topology->vertex_count(); ++v) {
+    if (topology->is_isolated(v) || topology->is_boundary_vertex(v)) return false;
+  }
+  return true;
+}
+
 /// What --repair would do, where there is something.
-void describe_repair(const Mesh& mesh, bool quiet, Table& table, Json& json) {
+void describe_repair(const Mesh& mesh, const std::optional<Topology>& topology, bool quiet, Table& table, Json& json) {
+  json["repair_would"] = Json::array();
+  if (is_whole(topology)) return;
   const RepairResult repaired = repair(mesh, {}, ProgressBar("looking for repairs", quiet).callback());
   if (!repaired.changes.empty()) add_changes(table, "--repair would have", repaired.changes);
   json["repair_would"] = repairs_json(repaired)["changes"];
@@ -221,6 +234,27 @@ void describe_mesh(const Mesh& mesh, Table& table, Json& json) {
   json["holes"] = mesh.holes.size();
 }
 
+/// None where the mesh has problems. Topology accepts exactly the meshes in which check() finds none, in less time.
+std::optional<Topology> topology_of(const Mesh& mesh, bool quiet) {
+  try {
+    return Topology(mesh, ProgressBar("connecting", quiet).callback());
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::Cancelled) throw;
+    return std::nullopt;
+  }
+}
+
+void describe_surface(const Mesh& mesh, const Topology& topology, const CommonArguments& arguments, Table& table,
+                      Json& json) {
+  const Scheme scheme = choose_scheme(mesh);
+  describe_topology(topology, table, json);
+  describe_seams(coincident_boundary_count(topology, mesh.points), arguments.repair, table, json);
+  describe_sizes(topology, mesh.points, table, json);
+  table.add("surface", scheme_text(scheme));
+  json["scheme"] = scheme_json(scheme);
+  if (mesh.face_count() > 0) describe_interpolation(mesh, topology, scheme, arguments.quiet, table, json);
+}
+
 }  // namespace
 
 int run_info(const CommonArguments& arguments) {
@@ -232,19 +266,15 @@ int run_info(const CommonArguments& arguments) {
   describe_mesh(mesh, table, json);
   describe_box(mesh, table, json);
   describe_values(mesh, table, json);
-  const std::vector<MeshProblem> problems = check(mesh, 10, ProgressBar("checking", arguments.quiet).callback());
-  describe_problems(problems, table, json);
-  if (problems.empty()) {
-    const Topology topology(mesh, ProgressBar("connecting", arguments.quiet).callback());
-    const Scheme scheme = choose_scheme(mesh);
-    describe_topology(topology, table, json);
-    describe_seams(coincident_boundary_count(topology, mesh.points), arguments.repair, table, json);
-    describe_sizes(topology, mesh.points, table, json);
-    table.add("surface", scheme_text(scheme));
-    json["scheme"] = scheme_json(scheme);
-    if (mesh.face_count() > 0) describe_interpolation(mesh, topology, scheme, arguments.quiet, table, json);
+  const std::optional<Topology> topology = topology_of(mesh, arguments.quiet);
+  json["problems"] = Json::array();
+  if (topology) {
+    describe_surface(mesh, *topology, arguments, table, json);
+  } else {
+    const std::vector<MeshProblem> problems = check(mesh, 10, ProgressBar("checking", arguments.quiet).callback());
+    describe_problems(problems, table, json);
   }
-  if (!arguments.repair) describe_repair(mesh, arguments.quiet, table, json);
+  if (!arguments.repair) describe_repair(mesh, topology, arguments.quiet, table, json);
   table.print(arguments);
   write_json(arguments.report, json);
   return 0;
