@@ -131,7 +131,7 @@ int run_distance(const DistanceArguments& arguments) {
   const CommonArguments& common = arguments.common;
   Job job("distance", common);
   const Mesh& control = job.mesh;
-  Mesh scan = read_mesh(arguments.scan, "", ProgressBar("reading", common.quiet).callback());
+  Mesh scan = read_file(arguments.scan, "", common.quiet, &job.notes);
   if (scan.vertex_count() == 0)
     throw Error(ErrorCode::BadArgument, arguments.scan + ": there are no points to measure");
   job.stages.finish("read scan");

@@ -260,9 +260,10 @@ void describe_surface(const Mesh& mesh, const Topology& topology, const CommonAr
 int run_info(const CommonArguments& arguments) {
   const ThreadLimit limit(arguments.threads);
   Json repairs;
-  const Mesh mesh = read_input(arguments, &repairs);
+  std::vector<std::string> notes;
+  const Mesh mesh = read_input(arguments, &repairs, &notes);
   Table table;
-  Json json{{"verb", "info"}, {"input", arguments.input}, {"repairs", repairs}};
+  Json json{{"verb", "info"}, {"input", arguments.input}, {"repairs", repairs}, {"notes", notes}};
   describe_mesh(mesh, table, json);
   describe_box(mesh, table, json);
   describe_values(mesh, table, json);

@@ -1,6 +1,7 @@
 #include "cli/input_output.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <utility>
 
 #include "batten/io/io.h"
@@ -13,8 +14,18 @@
 
 namespace batten::cli {
 
-Mesh read_input(const CommonArguments& arguments, nlohmann::ordered_json* repairs) {
-  Mesh mesh = read_mesh(arguments.input, arguments.input_format, ProgressBar("reading", arguments.quiet).callback());
+Mesh read_file(const std::string& path, const std::string& format, bool quiet, std::vector<std::string>* notes) {
+  std::vector<std::string> found;
+  Mesh mesh = read_mesh(path, format, ProgressBar("reading", quiet).callback(), &found);
+  for (const std::string& text : found) {
+    if (!quiet) std::fprintf(stderr, "batten: %s\n", text.c_str());
+    if (notes != nullptr) notes->push_back(text);
+  }
+  return mesh;
+}
+
+Mesh read_input(const CommonArguments& arguments, nlohmann::ordered_json* repairs, std::vector<std::string>* notes) {
+  Mesh mesh = read_file(arguments.input, arguments.input_format, arguments.quiet, notes);
   if (arguments.repair) {
     RepairResult repaired = repair(mesh, {}, ProgressBar("repairing", arguments.quiet).callback());
     Table table;

@@ -2,14 +2,19 @@
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "cli/arguments.h"
 
 namespace batten::cli {
 
-/// The file's mesh with --repair and --triangulate applied. What --repair changed is printed at once, and told to
-/// `repairs` (left null without --repair) for the report.
-Mesh read_input(const CommonArguments& arguments, nlohmann::ordered_json* repairs = nullptr);
+/// A file's mesh. What the reader skipped is printed on stderr at once, unless quiet, and added to `notes`.
+Mesh read_file(const std::string& path, const std::string& format, bool quiet,
+               std::vector<std::string>* notes = nullptr);
+/// The input's mesh with --repair and --triangulate applied. What --repair changed is printed at once, and told to
+/// `repairs` (left null without --repair) for the report; `notes` as above.
+Mesh read_input(const CommonArguments& arguments, nlohmann::ordered_json* repairs = nullptr,
+                std::vector<std::string>* notes = nullptr);
 /// Writes to the output; does nothing without one.
 void write_output(const CommonArguments& arguments, const Mesh& mesh);
 /// The mesh's own scheme, overruled by the options.

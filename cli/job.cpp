@@ -7,7 +7,10 @@
 namespace batten::cli {
 
 Job::Job(std::string verb_in, const CommonArguments& arguments)
-    : verb(std::move(verb_in)), common(arguments), limit(arguments.threads), mesh(read_input(arguments, &repairs)) {
+    : verb(std::move(verb_in)),
+      common(arguments),
+      limit(arguments.threads),
+      mesh(read_input(arguments, &repairs, &notes)) {
   stages.finish("read");
 }
 
@@ -33,7 +36,7 @@ void Job::print(Table table) const {
 
 void Job::report(const nlohmann::ordered_json& facts) const {
   nlohmann::ordered_json json = {
-      {"verb", verb}, {"input", common.input}, {"output", common.output}, {"repairs", repairs}};
+      {"verb", verb}, {"input", common.input}, {"output", common.output}, {"repairs", repairs}, {"notes", notes}};
   json.update(facts);
   if (seam_vertices) json["coincident_boundary_vertices"] = *seam_vertices;
   json["threads"] = thread_count();

@@ -1,5 +1,8 @@
 /// \file What verbs do alike, from the input to the report.
 #pragma once
+#include <string>
+#include <vector>
+
 #include "batten/parallel/threads.h"
 #include "cli/input_output.h"
 #include "cli/progress.h"
@@ -28,6 +31,7 @@ struct Job {
   ThreadLimit limit;
   Stages stages;
   nlohmann::ordered_json repairs;      ///< null without --repair
+  std::vector<std::string> notes;      ///< what the readers skipped
   std::optional<Index> seam_vertices;  ///< coincident_boundary_count, known after connect()
   Mesh mesh;
 };

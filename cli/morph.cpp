@@ -35,10 +35,10 @@ bool is_glb(const CommonArguments& common) {
   return !common.output.empty() && file_format(common.output, common.output_format) == "glb";
 }
 
-Mesh read_target(const MorphArguments& arguments) {
+Mesh read_target(const MorphArguments& arguments, std::vector<std::string>& notes) {
   CommonArguments common = arguments.common;
   common.input = arguments.target;
-  return read_input(common);
+  return read_input(common, nullptr, &notes);
 }
 
 /// The second mesh's points for the first one's vertices.
@@ -178,7 +178,7 @@ int run_morph(const MorphArguments& arguments) {
   const CommonArguments& common = arguments.common;
   Job job("morph", common);
   const Mesh& mesh = job.mesh;
-  const Mesh target = read_target(arguments);
+  const Mesh target = read_target(arguments, job.notes);
   job.stages.finish("read target");
   const Topology topology = job.connect();
   Table table;

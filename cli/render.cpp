@@ -19,7 +19,7 @@ int run_render(const RenderArguments& arguments) {
   subject.draw_control = arguments.control;
   Mesh targets;
   if (!arguments.targets.empty()) {
-    targets = read_mesh(arguments.targets);
+    targets = read_file(arguments.targets, "", arguments.common.quiet);
     subject.targets = &targets.points;
   }
   std::string shown = "as it is";

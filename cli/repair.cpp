@@ -14,7 +14,8 @@ int run_repair(const RepairArguments& arguments) {
   const CommonArguments& common = arguments.common;
   const ThreadLimit limit(common.threads);
   Stages stages;
-  const Mesh mesh = read_mesh(common.input, common.input_format, ProgressBar("reading", common.quiet).callback());
+  std::vector<std::string> notes;
+  const Mesh mesh = read_file(common.input, common.input_format, common.quiet, &notes);
   stages.finish("read");
   const RepairResult repaired = repair(mesh, arguments.options, ProgressBar("repairing", common.quiet).callback());
   stages.finish("repair");
@@ -29,6 +30,7 @@ int run_repair(const RepairArguments& arguments) {
   nlohmann::ordered_json json{{"verb", "repair"},
                               {"input", common.input},
                               {"output", common.output},
+                              {"notes", notes},
                               {"weld", arguments.options.weld},
                               {"vertices_before", mesh.vertex_count()},
                               {"faces_before", mesh.face_count()},

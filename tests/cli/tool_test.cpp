@@ -62,6 +62,19 @@ TEST_F(Tool, PipesFromStandardInputToStandardOutput) {
   EXPECT_NE(result.err.find("max error"), std::string::npos);  // the table does not get into the mesh
 }
 
+TEST_F(Tool, SaysWhatAReaderSkips) {
+  write("t.obj", "v 0 0 0 2\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string expected = "t.obj: weights w other than 1 are skipped: 1 (the first in line 1)";
+  const Outcome result = run("convert t.obj -o t.ply --report r.json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.err, "batten: " + expected + "\n");
+  EXPECT_EQ(nlohmann::json::parse(text_of(path("r.json")))["notes"], nlohmann::json::array({expected}));
+  EXPECT_EQ(run("convert t.obj -o t.ply --quiet").err, "");
+  write("plain.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(run("convert plain.obj -o t.ply --report r.json").err, "");
+  EXPECT_EQ(nlohmann::json::parse(text_of(path("r.json")))["notes"], nlohmann::json::array());
+}
+
 TEST_F(Tool, SubdividesToTheLimitWithNormals) {
   ASSERT_EQ(run("subdivide " + kModels + "icosahedron.obj --levels 2 --limit -o fine.ply").status, 0);
   const Mesh fine = read_mesh(path("fine.ply"));

@@ -2,6 +2,7 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -55,6 +56,20 @@ using Reader = Mesh (*)(const io::Source&);
 
 inline Mesh parse(Reader reader, const std::string& text, std::size_t chunk_bytes = io::kChunkBytes) {
   return reader({"test", text, chunk_bytes});
+}
+
+/// What the reader says that it skipped.
+inline std::vector<std::string> notes_of(Reader reader, const std::string& text,
+                                         std::size_t chunk_bytes = io::kChunkBytes) {
+  std::vector<std::string> notes;
+  reader({"test", text, chunk_bytes, {}, &notes});
+  return notes;
+}
+
+/// The text with the line ends of old Macintosh programs.
+inline std::string with_carriage_returns(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', '\r');
+  return text;
 }
 
 /// Expects an Error with this code and this part of its message, in whatever pieces the text is read.

@@ -36,6 +36,28 @@ TEST(ObjReader, ACommentThatEndsInABackslashHidesNoLine) {
   EXPECT_EQ(obj("# path C:\\\nv 1 2 3 # D:\\\nv 4 5 6\n").vertex_count(), 2);
 }
 
+TEST(ObjReader, CarriageReturnsAloneEndLines) {
+  const std::string text = std::string("# comment\nusemtl a b\n") + kTriangle + "f 1 \\\n2 3\n";
+  for (const std::size_t chunk : {std::size_t{1}, io::kChunkBytes}) {
+    const Mesh mesh = parse(io::read_obj, with_carriage_returns(text), chunk);
+    EXPECT_EQ(mesh.face_count(), 1);
+    expect_same_mesh(obj(text), mesh);
+  }
+  expect_read_error(io::read_obj, "v 0 0 0\rv 1 0\r", ErrorCode::BadFile, "test:2: missing z");
+}
+
+TEST(ObjReader, SkippedStatementsAreNamedWithTheirFirstLine) {
+  const std::string text = "v 0 0 0 1\nv 1 0 0 0.5\nv 0 1 0 2\nv 1 1 0\nl 1 2\np 1\nf 1 2 3\nl 2 3\ncurv 0 1 1 2\n";
+  const std::vector<std::string> expected = {
+      "test: weights w other than 1 are skipped: 2 (the first in line 2)",
+      "test: lines (`l`) are skipped: 2 (the first in line 5)",
+      "test: points (`p`) are skipped: 1 (the first in line 6)",
+      "test: curves and free-form surfaces (`curv`, `surf`) are skipped: 1 (the first in line 9)"};
+  EXPECT_EQ(notes_of(io::read_obj, text), expected);
+  EXPECT_EQ(notes_of(io::read_obj, text, 1), expected);
+  EXPECT_EQ(notes_of(io::read_obj, std::string(kTriangle) + "v 1 1 1 1\nf 1 2 3\n"), std::vector<std::string>());
+}
+
 TEST(ObjReader, NegativeIndicesCountBackFromTheLine) {
   const Mesh mesh = obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 0 0 1\nf -1 -2 -4\n");
   EXPECT_EQ(mesh.face_vertices, (Buffer<Index>{0, 1, 2, 3, 2, 0}));

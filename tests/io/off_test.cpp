@@ -18,6 +18,11 @@ TEST(OffReader, TheCountsMayStandAnywhereBehindTheWord) {
   }
 }
 
+TEST(OffReader, CarriageReturnsAloneEndLines) {
+  const std::string text = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  expect_same_mesh(off(text), off(with_carriage_returns(text)));
+}
+
 TEST(OffReader, ReadsColoursAndNormals) {
   const Mesh mesh = off("NCOFF\n1 0 0\n1 2 3 0 0 1 51 0 255 255\n");
   ASSERT_EQ(mesh.attributes.size(), 2U);

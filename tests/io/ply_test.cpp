@@ -108,6 +108,108 @@ TEST(PlyReader, RowsWithSeveralListsAreReadToo) {
   EXPECT_EQ(mesh.face_vertices, (Buffer<Index>{2, 1, 0, 2, 1, 0}));
 }
 
+const char* const kStripHeader =
+    " 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
+    "element tristrips 2\nproperty list int int vertex_indices\nend_header\n";
+
+/// The six vertices of a strip in the plane z = 0, then two strips in three parts: a strip with a jump by repeated
+/// vertices, one after a restart, and one in a row of its own.
+const std::vector<std::vector<std::int32_t>> kStrips = {{0, 1, 2, 3, 3, 5, 4, -1, 1, 3, 2, -1, 0, 1}, {4, 5, 2}};
+const Buffer<Index> kStripFaces = {0, 1, 2, 2, 1, 3, 3, 5, 4, 1, 3, 2, 4, 5, 2};
+
+TEST(PlyReader, TriangleStripsAlternateAndRestart) {
+  std::string text = std::string("ply\nformat ascii") + kStripHeader;
+  std::string little = std::string("ply\nformat binary_little_endian") + kStripHeader;
+  for (int i = 0; i < 6; ++i) {
+    text += std::to_string(i % 2) + " " + std::to_string(i / 2) + " 0\n";
+    for (const int value : {i % 2, i / 2, 0}) little += bytes(static_cast<float>(value));
+  }
+  for (const std::vector<std::int32_t>& strip : kStrips) {
+    text += std::to_string(strip.size());
+    little += bytes(static_cast<std::int32_t>(strip.size()));
+    for (const std::int32_t vertex : strip) text += " " + std::to_string(vertex);
+    for (const std::int32_t vertex : strip) little += bytes(vertex);
+    text += "\n";
+  }
+  const Mesh mesh = ply(text);
+  EXPECT_EQ(mesh.face_vertices, kStripFaces);
+  EXPECT_EQ(mesh.face_offsets, (Buffer<Index>{0, 3, 6, 9, 12, 15}));
+  expect_same_mesh(mesh, ply(little));
+  expect_same_mesh(mesh, parse(io::read_ply, text, 1));
+  expect_error([&] { ply(text.substr(0, text.find("5 4 -1")) + "5 6 -1 1 3 2 -1 0 1\n3 0 1 2\n"); },
+               ErrorCode::IndexOutOfRange, "names vertex 6");
+}
+
+TEST(PlyReader, AStripOfAConsistentFanHasOneOrientation) {
+  const Mesh mesh = ply(std::string("ply\nformat ascii") + kStripHeader +
+                        "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n1 2 0\n6 0 1 2 3 4 5\n0\n");
+  ASSERT_EQ(mesh.face_count(), 4);
+  for (Index face = 0; face < 4; ++face) {
+    const auto point = [&](int k) { return Eigen::RowVector3d(mesh.points.row(mesh.face_vertices[3 * face + k])); };
+    const Eigen::RowVector3d a = point(1) - point(0);
+    const Eigen::RowVector3d b = point(2) - point(0);
+    EXPECT_EQ(a[0] * b[1] - a[1] * b[0], 1.0) << face;
+  }
+}
+
+TEST(PlyReader, FacesAndStripsAreReadFromOneFile) {
+  const std::string head = " 1.0\nelement vertex 4\nproperty char x\nproperty char y\nproperty char z\n";
+  const std::string faces = "element face 1\nproperty list uchar char vertex_index\n";
+  const std::string strips = "element tristrips 1\nproperty list uchar char vertex_index\n";
+  const std::string points("\0\0\0\1\0\0\0\1\0\1\1\0", 12);
+  const std::string face("\3\0\1\2", 4);
+  const std::string strip("\4\0\1\2\3", 5);
+  const auto file = [&](const std::string& elements) { return "ply\nformat binary_big_endian" + head + elements; };
+  EXPECT_EQ(ply(file(faces + strips + "end_header\n") + points + face + strip).face_vertices,
+            (Buffer<Index>{0, 1, 2, 0, 1, 2, 2, 1, 3}));
+  EXPECT_EQ(ply(file(strips + faces + "end_header\n") + points + strip + face).face_vertices,
+            (Buffer<Index>{0, 1, 2, 2, 1, 3, 0, 1, 2}));
+}
+
+/// A triangle whose list has 64-bit entries.
+std::string wide_file(io::ByteOrder order, const std::string& format, std::int64_t last) {
+  std::string text = "ply\nformat " + format +
+                     " 1.0\nelement vertex 3\nproperty int64 x\nproperty uint64 y\nproperty float z\n"
+                     "element face 1\nproperty list uint64 int64 vertex_indices\nend_header\n";
+  for (int i = 0; i < 3; ++i) text += bytes(std::int64_t{-i}, order) + bytes(std::uint64_t{7}, order) + bytes(0.0F);
+  text += bytes(std::uint64_t{3}, order);
+  for (const std::int64_t vertex : {std::int64_t{0}, std::int64_t{1}, last}) text += bytes(vertex, order);
+  return text;
+}
+
+TEST(PlyReader, ReadsIntegersOf64Bits) {
+  for (const bool little : {true, false}) {
+    const io::ByteOrder order = little ? io::ByteOrder::Little : io::ByteOrder::Big;
+    const std::string format = little ? "binary_little_endian" : "binary_big_endian";
+    const Mesh mesh = ply(wide_file(order, format, 2));
+    EXPECT_EQ(mesh.points.row(2), Eigen::RowVector3d(-2, 7, 0));
+    EXPECT_EQ(mesh.face_vertices, (Buffer<Index>{0, 1, 2}));
+    for (const std::int64_t bad : {std::int64_t{3}, std::int64_t{1} << 32, std::int64_t{-1}}) {
+      expect_error([&] { ply(wide_file(order, format, bad)); }, ErrorCode::IndexOutOfRange,
+                   "names vertex " + std::to_string(bad));
+    }
+  }
+  std::string text(kTextHeader);
+  text.replace(text.find("uchar int"), 9, "uint64 int64");
+  EXPECT_EQ(ply(text + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").face_count(), 1);
+}
+
+TEST(PlyReader, CarriageReturnsAloneEndLines) {
+  const std::string text = std::string(kTextHeader) + "0 0 0\n1 0.1 0\n0 1 -2e1\n3 0 1 2\n";
+  expect_same_mesh(ply(text), ply(with_carriage_returns(text)));
+  const std::string whole = binary_file(io::ByteOrder::Little, "binary_little_endian");
+  const std::size_t body = whole.find("end_header\n") + 11;
+  // A body with bytes that look like line ends stays as it is.
+  expect_same_mesh(ply(whole), ply(with_carriage_returns(whole.substr(0, body)) + whole.substr(body)));
+}
+
+TEST(PlyReader, SkippedElementsAndPropertiesAreNamed) {
+  EXPECT_EQ(notes_of(io::read_ply, binary_file(io::ByteOrder::Little, "binary_little_endian")),
+            std::vector<std::string>{"test: elements and properties that are skipped: 'camera', 'face flag', "
+                                     "'face weight', 'edge'"});
+  EXPECT_TRUE(notes_of(io::read_ply, std::string(kTextHeader) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").empty());
+}
+
 TEST(PlyReader, EveryCutOfABinaryFileIsAnError) {
   const std::string whole = binary_file(io::ByteOrder::Little, "binary_little_endian");
   for (std::size_t size = 1; size < whole.size(); ++size) {

@@ -50,6 +50,52 @@ TEST(StlReader, NearCoordinatesStayApart) {
   EXPECT_EQ(stl(binary_file("", coordinates)).vertex_count(), 5);
 }
 
+/// The two triangles with so many attribute bytes after each, of which `told` are announced.
+std::string file_with_attributes(const std::vector<std::uint16_t>& bytes, const std::vector<std::uint16_t>& told,
+                                 const std::string& head = "binary") {
+  const std::string plain = binary_file(head, kTwoTriangles);
+  std::string text = plain.substr(0, 84);
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    io::ByteBuffer count;
+    count.put(told[i]);
+    text += plain.substr(84 + 50 * i, 48) + std::string(count.text()) + std::string(bytes[i], '\xff');
+  }
+  return text;
+}
+
+TEST(StlReader, AttributeBytesAreSkippedWhereTheirNumbersAddUp) {
+  const std::string text = file_with_attributes({3, 60}, {3, 60}, "solid from a CAD program");
+  expect_same_mesh(stl(binary_file("binary", kTwoTriangles)), stl(text));
+  EXPECT_EQ(notes_of(io::read_stl, text),
+            std::vector<std::string>{"test: attribute bytes of the triangles are skipped: 63"});
+}
+
+TEST(StlReader, AttributeNumbersThatDoNotAddUpMeanNothing) {
+  const Mesh expected = stl(binary_file("binary", kTwoTriangles));
+  // Colours in the place of the numbers, as several programs write them, in a file of the usual size.
+  const std::string colored = file_with_attributes({0, 0}, {0x7fff, 0x801f});
+  expect_same_mesh(expected, stl(colored));
+  EXPECT_TRUE(notes_of(io::read_stl, colored).empty());
+  for (const std::vector<std::uint16_t>& told :
+       {std::vector<std::uint16_t>{0, 0}, {0x7fff, 0}, {0, 8}, {0, 6}, {0, 65535}}) {
+    const std::string padded = file_with_attributes({0, 7}, told);
+    expect_same_mesh(expected, stl(padded));
+    EXPECT_EQ(notes_of(io::read_stl, padded),
+              std::vector<std::string>{"test: bytes after the last triangle are skipped: 7"});
+  }
+}
+
+TEST(StlReader, ATextStaysATextWhateverItsSize) {
+  std::string text(kText);
+  text.replace(text.find("two"), 3, std::string(100, '\xe4'));  // a name in an old encoding covers the count
+  EXPECT_EQ(stl(text).face_count(), 2);
+  EXPECT_EQ(stl(with_carriage_returns(kText)).face_count(), 2);
+}
+
+TEST(StlReader, BytesWithoutATriangleAreNoFile) {
+  expect_error([] { stl(std::string(200, '\0')); }, ErrorCode::BadFile, "promises 84 bytes, but the file has 200");
+}
+
 TEST(StlReader, EveryCutIsAnError) {
   const std::string binary = binary_file("binary", kTwoTriangles);
   for (std::size_t size = 1; size < binary.size(); ++size) {

@@ -13,6 +13,10 @@ TEST(XyzReader, BlanksAndCommasPartTheNumbers) {
   }
 }
 
+TEST(XyzReader, CarriageReturnsAloneEndLines) {
+  EXPECT_EQ(xyz("# two\r1 2 3\r4 5 6\r").points, xyz("1 2 3\n4 5 6\n").points);
+}
+
 TEST(XyzReader, SixColumnsArePointsAndNormals) {
   const Mesh mesh = xyz("1 2 3 0 0 1\n4 5 6 1 0 nan\n");
   ASSERT_EQ(mesh.attributes.size(), 1U);

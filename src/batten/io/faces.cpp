@@ -8,8 +8,8 @@
 namespace batten::io {
 
 void join_faces(const std::string& name, std::vector<FaceList>& parts, Mesh& mesh) {
-  std::vector<std::size_t> first_face(1, 0);
-  std::vector<std::size_t> first_corner(1, 0);
+  std::vector<std::size_t> first_face(1, static_cast<std::size_t>(mesh.face_count()));
+  std::vector<std::size_t> first_corner(1, mesh.face_vertices.size());
   for (const FaceList& part : parts) {
     first_face.push_back(first_face.back() + part.sizes.size());
     first_corner.push_back(first_corner.back() + part.vertices.size());
@@ -18,7 +18,6 @@ void join_faces(const std::string& name, std::vector<FaceList>& parts, Mesh& mes
   require_index_count(name, first_corner.back(), "face corners");
   mesh.face_offsets.resize(first_face.back() + 1);
   mesh.face_vertices.resize(first_corner.back());
-  mesh.face_offsets[0] = 0;
   parallel_for_each(static_cast<std::ptrdiff_t>(parts.size()), [&](std::ptrdiff_t i) {
     const FaceList part = std::move(parts[i]);
     auto end = static_cast<Index>(first_corner[i]);

@@ -12,7 +12,7 @@ struct FaceList {
   Buffer<Index> vertices;
 };
 
-/// Concatenates the parts into mesh.face_offsets and mesh.face_vertices and empties them. Throws Error(TooLarge).
+/// Appends the parts to mesh.face_offsets and mesh.face_vertices and empties them. Throws Error(TooLarge).
 void join_faces(const std::string& name, std::vector<FaceList>& parts, Mesh& mesh);
 
 }  // namespace batten::io

@@ -65,7 +65,8 @@ std::string_view without_byte_order_mark(std::string_view bytes) {
 
 std::string file_format(const std::string& path, const std::string& wish) { return find_format(path, wish).extension; }
 
-Mesh read_mesh(const std::string& path, const std::string& format, const Progress& progress) {
+Mesh read_mesh(const std::string& path, const std::string& format, const Progress& progress,
+               std::vector<std::string>* notes) {
   constexpr double kFetched = 0.2;  // of the time
   const Format& known = find_format(path, format);
   if (known.read == nullptr) {
@@ -74,7 +75,7 @@ Mesh read_mesh(const std::string& path, const std::string& format, const Progres
   }
   const io::InputFile file(path, progress_within(progress, 0.0, kFetched));
   return known.read({path == "-" ? "standard input" : path, without_byte_order_mark(file.bytes()), io::kChunkBytes,
-                     progress_within(progress, kFetched, 1.0)});
+                     progress_within(progress, kFetched, 1.0), notes});
 }
 
 void write_mesh(const std::string& path, const Mesh& mesh, const WriteOptions& options, const Progress& progress) {

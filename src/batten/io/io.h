@@ -7,24 +7,28 @@
 /// threads. A header that promises more than the file can hold is refused before memory is allocated. Topology checks
 /// whether the faces form a surface.
 ///
-///   OBJ   v (w is skipped; a colour becomes "color" if every vertex has one), vt, vn ("uv" and "normal" at the
-///         corners, or at the vertices in a file without faces that has one for each), f with any number of corners,
-///         g o usemtl s mtllib, and OpenSubdiv's tags `t crease`, `corner`, `hole`, `interpolateboundary`,
+///   OBJ   v (a weight w is skipped; a colour becomes "color" if every vertex has one), vt, vn ("uv" and "normal" at
+///         the corners, or at the vertices in a file without faces that has one for each), f with any number of
+///         corners, g o usemtl s mtllib, and OpenSubdiv's tags `t crease`, `corner`, `hole`, `interpolateboundary`,
 ///         `creasemethod`, `smoothtriangles`, whose indices count from 0. All else is skipped. Groups without faces
 ///         are not kept.
-///   PLY   text and both byte orders, any types. nx ny nz become "normal"; red green blue [alpha] become "color"
-///         (bytes become k/255); s t, u v and texture_u texture_v become "uv"; any other scalar of the vertices
-///         becomes an attribute ("uv_" for a scalar called uv). Other elements are skipped.
+///   PLY   text and both byte orders, any types, faces and triangle strips (`tristrips`; -1 begins a new strip). nx ny
+///         nz become "normal"; red green blue [alpha] become "color" (bytes become k/255); s t, u v and texture_u
+///         texture_v become "uv"; any other scalar of the vertices becomes an attribute ("uv_" for a scalar called uv).
+///         Other elements are skipped.
 ///   OFF   with normals (N), colours (C) and texture coordinates (ST) of the vertices. Binary OFF and other
 ///         dimensions are not read.
 ///   STL   text and bytes, distinguished by the size of the file. Equal coordinates become one vertex, in the order
-///         of appearance.
+///         of appearance. If bytes follow the triangles, the attribute byte counts are taken at their word where they
+///         add up to the size of the file; otherwise the rest is skipped.
 ///   XYZ   points in 3 columns, or 6 with "normal"; with another number, the further columns are "extra". Blanks or
 ///         commas separate numbers; # begins a comment.
 ///
+/// Lines end in a line feed, with or without a carriage return, or in a carriage return alone.
 /// Coordinates and sharpness values must be finite. Other attributes may hold NaN and are kept unchanged.
 #pragma once
 #include <string>
+#include <vector>
 
 #include "batten/mesh/mesh.h"
 #include "batten/output.h"
@@ -36,7 +40,10 @@ namespace batten {
 /// Throws Error(FileNotReadable, UnknownFormat, BadFile, IndexOutOfRange, NotFinite, TooLarge, Cancelled).
 /// Cost: O(bytes); on two cores OBJ 800 MB/s, binary PLY 1500 MB/s, binary STL 200 MB/s. Memory: the mesh and the file;
 /// for OBJ twice the mesh and the file. A broken file never takes more than 64 times its size.
-Mesh read_mesh(const std::string& path, const std::string& format = "", const Progress& progress = {});
+/// notes: null, or gets a sentence ("NAME: ...") for everything that the file holds and the mesh does not, such as
+/// skipped statements.
+Mesh read_mesh(const std::string& path, const std::string& format = "", const Progress& progress = {},
+               std::vector<std::string>* notes = nullptr);
 
 /// The name of a file's format, such as "obj": `wish` if given, otherwise the path's extension, in lower case and
 /// without a dot. Throws Error(UnknownFormat).

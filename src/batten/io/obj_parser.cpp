@@ -10,9 +10,10 @@ namespace {
 constexpr std::size_t kPointColumns = 3;
 constexpr std::size_t kUvColumns = 2;
 
-/// Reads the lines of one piece. These statements are skipped because a subdivision surface has no use for them: l, p,
-/// vp, curv, curv2, surf, cstype, deg, bmat, step, parm, trim, hole, scrv, sp, end, con, mg, bevel, c_interp, d_interp,
-/// lod, usemap, maplib, shadow_obj, trace_obj, ctech, stech, call, csh, and any word that OBJ does not define.
+/// Reads the lines of one piece. These statements are skipped because a Mesh has no place for them: l, p, curv, curv2
+/// and surf, which are counted; vp, cstype, deg, bmat, step, parm, trim, hole, scrv, sp, end, con, mg, bevel, c_interp,
+/// d_interp, lod, usemap, maplib, shadow_obj, trace_obj, ctech, stech, call, csh, and any word that OBJ does not
+/// define.
 class ObjParser {
  public:
   ObjParser(std::string_view text, ObjPiece& piece) : scanner_(text), piece_(piece) {}
@@ -41,28 +42,38 @@ class ObjParser {
     } else if (keyword == "g" || keyword == "o" || keyword == "s" || keyword == "usemtl") {
       const auto first_face = static_cast<Index>(piece_.face_sizes.size());
       add_group(piece_.groups, {std::string(keyword), scanner_.rest_of_line(), first_face});
+    } else if (keyword == "l") {
+      skip(ObjSkip::Lines, keyword.data());
+    } else if (keyword == "p") {
+      skip(ObjSkip::Points, keyword.data());
+    } else if (keyword == "curv" || keyword == "curv2" || keyword == "surf") {
+      skip(ObjSkip::Curves, keyword.data());
     }
   }
 
+  void skip(ObjSkip what, const char* where) { piece_.skipped[static_cast<std::size_t>(what)].add(where); }
+
   void vertex() {
+    const char* const begin = scanner_.position();
     piece_.points.push_back(scanner_.coordinate("x coordinate"));
     piece_.points.push_back(scanner_.coordinate("y coordinate"));
     piece_.points.push_back(scanner_.coordinate("z coordinate"));
     if (!scanner_.next_token()) {
       note_color_columns(0);
     } else {
-      vertex_extras();
+      vertex_extras(begin);
     }
   }
 
   /// Reads what follows x y z: [w], or r g b [a].
-  void vertex_extras() {
+  void vertex_extras(const char* vertex) {
     double extras[4];
     int count = 0;
     for (; count < 4 && scanner_.next_token(); ++count) extras[count] = scanner_.number("vertex colour");
     if (count == 2) scanner_.fail(ErrorCode::BadFile, "a vertex has 3 numbers, 4 (w), 6 or 7 (a colour), not 5");
     expect_line_end();
     note_color_columns(count == 1 ? 0 : count);
+    if (count == 1 && extras[0] != 1.0) skip(ObjSkip::Weights, vertex);
     if (count >= 3) piece_.colors.insert(piece_.colors.end(), extras, extras + count);
   }
 

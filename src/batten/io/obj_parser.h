@@ -1,5 +1,7 @@
 /// \file The content of one piece of an OBJ file, before the pieces are joined.
 #pragma once
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,6 +28,20 @@ struct Tagged {
   const char* where;
 };
 
+/// Statements of one kind that are skipped: their number, and where the first one is (null: none).
+struct Skipped {
+  std::int64_t count = 0;
+  const char* first = nullptr;
+
+  void add(const char* where) {
+    if (count++ == 0) first = where;
+  }
+};
+
+/// What an OBJ file may hold and a Mesh has no place for.
+enum class ObjSkip { Weights, Lines, Points, Curves };
+inline constexpr std::size_t kObjSkips = 4;
+
 struct ObjPiece {
   Buffer<double> points;
   Buffer<double> colors;
@@ -47,6 +63,7 @@ struct ObjPiece {
   std::optional<BoundaryRule> boundary;
   std::optional<CreaseMethod> crease_method;
   std::optional<TriangleRule> triangle_rule;
+  std::array<Skipped, kObjSkips> skipped;  ///< for each ObjSkip
 };
 
 /// Throws Fault.

@@ -5,6 +5,7 @@
 #include "batten/io/chunks.h"
 #include "batten/io/faces.h"
 #include "batten/io/formats.h"
+#include "batten/io/line_ends.h"
 #include "batten/io/obj_parser.h"
 
 namespace batten::io {
@@ -211,19 +212,42 @@ Mesh join(const Source& source, const Texts& texts, Pieces& pieces) {
   return mesh;
 }
 
-}  // namespace
+/// Tells the skipped statements of all pieces, with the line of the first one of each kind.
+void note_skipped(const Source& source, const Pieces& pieces) {
+  constexpr const char* kWhat[kObjSkips] = {"weights w other than 1", "lines (`l`)", "points (`p`)",
+                                            "curves and free-form surfaces (`curv`, `surf`)"};
+  for (std::size_t kind = 0; kind < kObjSkips; ++kind) {
+    Skipped all;
+    for (const ObjPiece& piece : pieces) {
+      const Skipped& skipped = piece.skipped[kind];
+      if (all.count == 0) all.first = skipped.first;
+      all.count += skipped.count;
+    }
+    if (all.count == 0) continue;
+    const std::string line = std::to_string(line_number(source, all.first));
+    note(source,
+         std::string(kWhat[kind]) + " are skipped: " + std::to_string(all.count) + " (the first in line " + line + ")");
+  }
+}
 
 /// Reports the first of several wrong lines. Indices are checked after every line has been read.
-Mesh read_obj(const Source& source) {
+Mesh read_obj_lines(const Source& source) {
   try {
     const Texts texts = cut_lines(source.bytes, source.chunk_bytes);
     Pieces pieces(texts.size());
     const auto parse = [&](std::size_t i) { parse_obj(texts[i], pieces[i]); };
     for_each_chunk(pieces.size(), parse, progress_within(source.progress, 0.0, 0.9));
+    note_skipped(source, pieces);
     return join(source, texts, pieces);
   } catch (const Fault& fault) {
     throw_at_line(source, fault);
   }
+}
+
+}  // namespace
+
+Mesh read_obj(const Source& source) {
+  return with_line_feeds(source, has_only_carriage_returns(source.bytes), read_obj_lines);
 }
 
 }  // namespace batten::io

@@ -3,6 +3,7 @@
 #include "batten/io/chunks.h"
 #include "batten/io/faces.h"
 #include "batten/io/formats.h"
+#include "batten/io/line_ends.h"
 
 namespace batten::io {
 
@@ -139,11 +140,13 @@ Mesh read_rows(const Source& source, const OffHeader& header) {
 }  // namespace
 
 Mesh read_off(const Source& source) {
-  try {
-    return read_rows(source, parse_header(source.bytes));
-  } catch (const Fault& fault) {
-    throw_at_line(source, fault);
-  }
+  return with_line_feeds(source, has_only_carriage_returns(source.bytes), [](const Source& lines) {
+    try {
+      return read_rows(lines, parse_header(lines.bytes));
+    } catch (const Fault& fault) {
+      throw_at_line(lines, fault);
+    }
+  });
 }
 
 }  // namespace batten::io

@@ -27,6 +27,10 @@ auto with_type(PlyType type, const Body& body) {
       return body(std::int32_t{});
     case PlyType::Uint32:
       return body(std::uint32_t{});
+    case PlyType::Int64:
+      return body(std::int64_t{});
+    case PlyType::Uint64:
+      return body(std::uint64_t{});
     case PlyType::Float32:
       return body(float{});
     case PlyType::Float64:
@@ -91,7 +95,7 @@ class BinaryReader {
     if (!element.has_list()) {
       if (targets.role == PlyRole::Vertices) read_fixed_vertices(targets);
       at_ += element.count * element.smallest_row();
-    } else if (targets.role == PlyRole::Faces && list_count(element) == 1) {
+    } else if (targets.role == PlyRole::Faces && list_count(element) == 1 && mesh_.face_count() == 0) {
       read_single_list_faces(targets);
     } else {
       read_rows(targets);
@@ -243,7 +247,8 @@ class BinaryReader {
                    progress_within(source_.progress, 0.7, 1.0));
   }
 
-  /// Reads rows of any size one by one: those with several lists, or with lists at the vertices.
+  /// Reads rows of any size one by one: those with several lists, those of strips, or vertices with
+  /// lists.
   void read_rows(const PlyTargets& targets) {
     std::vector<FaceList> faces(1);
     BinaryValues<Order> values{at_, end_};
@@ -252,7 +257,7 @@ class BinaryReader {
       read_ply_row(values, targets, static_cast<std::ptrdiff_t>(row), faces[0]);
     }
     at_ = values.at;
-    if (targets.role == PlyRole::Faces) join_faces(source_.name, faces, mesh_);
+    join_faces(source_.name, faces, mesh_);
   }
 
   const Source& source_;

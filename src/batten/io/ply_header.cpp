@@ -19,7 +19,7 @@ constexpr TypeName kTypeNames[] = {
     {"float", PlyType::Float32},   {"double", PlyType::Float64}, {"int8", PlyType::Int8},
     {"uint8", PlyType::Uint8},     {"int16", PlyType::Int16},    {"uint16", PlyType::Uint16},
     {"int32", PlyType::Int32},     {"uint32", PlyType::Uint32},  {"float32", PlyType::Float32},
-    {"float64", PlyType::Float64},
+    {"float64", PlyType::Float64}, {"int64", PlyType::Int64},    {"uint64", PlyType::Uint64},
 };
 
 class HeaderParser {
@@ -128,6 +128,8 @@ std::size_t byte_size(PlyType type) {
     case PlyType::Uint32:
     case PlyType::Float32:
       return 4;
+    case PlyType::Int64:
+    case PlyType::Uint64:
     case PlyType::Float64:
       break;
   }

@@ -9,7 +9,7 @@
 
 namespace batten::io {
 
-enum class PlyType { Int8, Uint8, Int16, Uint16, Int32, Uint32, Float32, Float64 };
+enum class PlyType { Int8, Uint8, Int16, Uint16, Int32, Uint32, Int64, Uint64, Float32, Float64 };
 enum class PlyEncoding { Text, LittleEndian, BigEndian };
 
 struct PlyProperty {

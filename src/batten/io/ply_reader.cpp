@@ -1,5 +1,6 @@
 #include "batten/io/chunks.h"
 #include "batten/io/formats.h"
+#include "batten/io/line_ends.h"
 #include "batten/io/ply_binary.h"
 #include "batten/io/ply_targets.h"
 
@@ -76,9 +77,24 @@ void read_text(const Source& source, const PlyHeader& header, std::vector<PlyTar
   join_faces(source.name, faces, mesh);
 }
 
-}  // namespace
+/// Tells which elements, and which properties of faces, have no place in a Mesh.
+void note_skipped(const Source& source, const std::vector<PlyTargets>& targets) {
+  std::string names;
+  const auto add = [&](const std::string& name) { names += (names.empty() ? "" : ", ") + in_quotes(name); };
+  for (const PlyTargets& target : targets) {
+    const PlyElement& element = *target.element;
+    if (element.count == 0) continue;
+    if (target.role == PlyRole::Skipped) add(element.name);
+    for (std::size_t i = 0; i < element.properties.size() && target.role != PlyRole::Skipped; ++i) {
+      const PlyProperty& property = element.properties[i];
+      const bool kept = target.role == PlyRole::Vertices ? !property.is_list() : i == target.face_list;
+      if (!kept) add(element.name + " " + property.name);
+    }
+  }
+  if (!names.empty()) note(source, "elements and properties that are skipped: " + names);
+}
 
-Mesh read_ply(const Source& source) {
+Mesh read_ply_lines(const Source& source) {
   PlyHeader header;
   try {
     header = parse_ply_header(source);
@@ -97,7 +113,25 @@ Mesh read_ply(const Source& source) {
     if (header.encoding == PlyEncoding::Text) throw_at_line(source, fault);
     throw_at_byte(source, fault);
   }
+  note_skipped(source, targets);
   return mesh;
+}
+
+/// The bytes whose carriage returns alone end lines: none, those of the header, or, in a text, all.
+std::size_t carriage_return_bytes(std::string_view bytes) {
+  const std::size_t first = bytes.find_first_of("\r\n");
+  if (first == std::string_view::npos || bytes[first] == '\n' || bytes.substr(first, 2) == "\r\n") return 0;
+  constexpr std::string_view kEnd = "\rend_header\r";
+  const std::size_t end = bytes.find(kEnd);
+  const bool text = bytes.substr(0, end).find("\rformat ascii") != std::string_view::npos;
+  return text || end == std::string_view::npos ? bytes.size() : end + kEnd.size();
+}
+
+}  // namespace
+
+Mesh read_ply(const Source& source) {
+  const std::size_t converted = carriage_return_bytes(source.bytes);
+  return with_line_feeds(source, converted > 0, read_ply_lines, converted);
 }
 
 }  // namespace batten::io

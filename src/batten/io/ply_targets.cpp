@@ -77,14 +77,17 @@ std::vector<PlyTargets> find_ply_targets(const std::string& name, const PlyHeade
       faces = true;
       targets.role = PlyRole::Faces;
       targets.face_list = static_cast<std::size_t>(list - element.properties.begin());
-    } else if (element.name == "face" && element.count > 0) {
-      throw Error(ErrorCode::BadFile, name + ": the faces have no list 'vertex_indices'; add it to the header");
+    } else if (element.name == "tristrips" && !strips && list != element.properties.end()) {
+      strips = true;
+      targets.role = PlyRole::Strips;
+      targets.face_list = static_cast<std::size_t>(list - element.properties.begin());
+    } else if ((element.name == "face" || element.name == "tristrips") && element.count > 0) {
+      throw Error(ErrorCode::BadFile, name + ": the " + (element.name == "face" ? "faces" : "triangle strips") +
+                                          " have no list 'vertex_indices'; add it to the header");
     }
-    strips = strips || (element.name == "tristrips" && element.count > 0);
     all.push_back(std::move(targets));
   }
   if (vertices < 0) throw Error(ErrorCode::BadFile, name + ": the header has no element 'vertex'");
-  if (strips && !faces) throw Error(ErrorCode::BadFile, name + ": triangle strips are not read; save it with faces");
   for (PlyTargets& targets : all) targets.vertex_count = static_cast<Index>(vertices);
   return all;
 }

@@ -1,5 +1,6 @@
 /// \file The destination of each value of a PLY row in a Mesh, for text and bytes alike.
 #pragma once
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -17,13 +18,13 @@ struct PlyColumn {
   double divisor = 1.0;
 };
 
-enum class PlyRole { Vertices, Faces, Skipped };
+enum class PlyRole { Vertices, Faces, Strips, Skipped };
 
 struct PlyTargets {
   const PlyElement* element = nullptr;
   PlyRole role = PlyRole::Skipped;
   std::vector<PlyColumn> columns;  ///< one for each property
-  std::size_t face_list = 0;       ///< the property that holds a face's vertices
+  std::size_t face_list = 0;       ///< the property that holds the vertices of a face or a strip
   Index vertex_count = 0;          ///< the file's
 };
 
@@ -33,6 +34,49 @@ std::vector<PlyTargets> find_ply_targets(const std::string& name, const PlyHeade
 
 /// Resizes mesh.points and the attributes for the vertex element, and lets the columns point there.
 void allocate_ply_vertices(PlyTargets& targets, Mesh& mesh);
+
+/// Reads a vertex of a face, or of a strip, in which -1 may stand.
+template <typename RowValues>
+Index read_ply_vertex(RowValues& values, PlyType type, Index vertex_count, std::int64_t least) {
+  const std::int64_t vertex = values.integer(type, "vertex of a face");
+  if (vertex < least || vertex >= vertex_count) {
+    values.fail(ErrorCode::IndexOutOfRange, "a face names vertex " + std::to_string(vertex) + ", but there are " +
+                                                std::to_string(vertex_count) + ", counted from 0");
+  }
+  return static_cast<Index>(vertex);
+}
+
+template <typename RowValues>
+void read_ply_face(RowValues& values, PlyType type, std::int64_t count, Index vertex_count, FaceList& faces) {
+  if (count < 3)
+    values.fail(ErrorCode::BadFile, "a face needs 3 corners or more, this one has " + std::to_string(count));
+  for (std::int64_t k = 0; k < count; ++k) faces.vertices.push_back(read_ply_vertex(values, type, vertex_count, 0));
+  faces.sizes.push_back(static_cast<Index>(count));
+}
+
+/// Reads a triangle strip: each vertex forms a triangle with the two before it, the second, fourth and so on of them
+/// turned over, so that all have one orientation. -1 begins a new strip. Triangles that name a vertex twice are left
+/// out: they only lead the strip to another place.
+template <typename RowValues>
+void read_ply_strip(RowValues& values, PlyType type, std::int64_t count, Index vertex_count, FaceList& faces) {
+  Index before[2] = {-1, -1};
+  bool turned = false;
+  for (std::int64_t k = 0; k < count; ++k) {
+    const Index vertex = read_ply_vertex(values, type, vertex_count, -1);
+    if (vertex >= 0 && before[0] >= 0) {
+      if (vertex != before[0] && vertex != before[1] && before[0] != before[1]) {
+        for (const Index corner : {before[turned ? 1 : 0], before[turned ? 0 : 1], vertex}) {
+          faces.vertices.push_back(corner);
+        }
+        faces.sizes.push_back(3);
+      }
+      turned = !turned;
+    }
+    before[0] = vertex < 0 ? -1 : before[1];
+    before[1] = vertex;
+    if (vertex < 0) turned = false;
+  }
+}
 
 /// Reads one row, value by value. `RowValues` has scalar(property), coordinate(property), integer(type, what),
 /// skip(type, count) and fail(code, message).
@@ -49,21 +93,13 @@ void read_ply_row(RowValues& values, const PlyTargets& targets, std::ptrdiff_t r
     }
     const std::int64_t count = values.integer(*property.count_type, "list size");
     if (count < 0) values.fail(ErrorCode::BadFile, "a list has " + std::to_string(count) + " entries");
-    if (targets.role != PlyRole::Faces || i != targets.face_list) {
+    if (i != targets.face_list || (targets.role != PlyRole::Faces && targets.role != PlyRole::Strips)) {
       values.skip(property.type, count);
-      continue;
+    } else if (targets.role == PlyRole::Faces) {
+      read_ply_face(values, property.type, count, targets.vertex_count, faces);
+    } else {
+      read_ply_strip(values, property.type, count, targets.vertex_count, faces);
     }
-    if (count < 3)
-      values.fail(ErrorCode::BadFile, "a face needs 3 corners or more, this one has " + std::to_string(count));
-    for (std::int64_t k = 0; k < count; ++k) {
-      const std::int64_t vertex = values.integer(property.type, "vertex of a face");
-      if (vertex < 0 || vertex >= targets.vertex_count) {
-        values.fail(ErrorCode::IndexOutOfRange, "a face names vertex " + std::to_string(vertex) + ", but there are " +
-                                                    std::to_string(targets.vertex_count) + ", counted from 0");
-      }
-      faces.vertices.push_back(static_cast<Index>(vertex));
-    }
-    faces.sizes.push_back(static_cast<Index>(count));
   }
 }
 

@@ -69,10 +69,17 @@ Buffer<char> read_stream(int descriptor, const std::string& name, const Progress
 
 }  // namespace
 
+void note(const Source& source, const std::string& message) {
+  if (source.notes != nullptr) source.notes->push_back(source.name + ": " + message);
+}
+
+std::ptrdiff_t line_number(const Source& source, const char* where) {
+  return std::count(source.bytes.data(), where, '\n') + 1;
+}
+
 void throw_at_line(const Source& source, const Fault& fault) {
-  const std::string_view before(source.bytes.data(), static_cast<std::size_t>(fault.where - source.bytes.data()));
-  const auto line = std::count(before.begin(), before.end(), '\n') + 1;
-  throw Error(fault.code, source.name + ":" + std::to_string(line) + ": " + fault.message);
+  const std::string line = std::to_string(line_number(source, fault.where));
+  throw Error(fault.code, source.name + ":" + line + ": " + fault.message);
 }
 
 void throw_at_byte(const Source& source, const Fault& fault) {

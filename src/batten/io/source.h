@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "batten/buffer.h"
 #include "batten/error.h"
@@ -20,7 +21,12 @@ struct Source {
   std::string_view bytes;  ///< the whole file
   std::size_t chunk_bytes = kChunkBytes;
   Progress progress = {};  ///< reports the reading of these bytes
+  /// What the reader did not understand or left out, a sentence each; null if nobody asks.
+  std::vector<std::string>* notes = nullptr;
 };
+
+/// Adds "NAME: message" to the notes.
+void note(const Source& source, const std::string& message);
 
 /// An error at a byte of the source, thrown and caught inside the readers. Each format turns it into an Error.
 struct Fault {
@@ -31,6 +37,9 @@ struct Fault {
 
 /// Throws Error "NAME:LINE: message" for a fault in a text.
 [[noreturn]] void throw_at_line(const Source& source, const Fault& fault);
+
+/// The number of the line, counted from 1.
+std::ptrdiff_t line_number(const Source& source, const char* where);
 
 /// Throws Error "NAME: message (byte N)" for a fault in binary data.
 [[noreturn]] void throw_at_byte(const Source& source, const Fault& fault);

@@ -1,5 +1,6 @@
 #include "batten/io/chunks.h"
 #include "batten/io/formats.h"
+#include "batten/io/line_ends.h"
 
 namespace batten::io {
 
@@ -57,11 +58,13 @@ Mesh read_rows(const Source& source) {
 }  // namespace
 
 Mesh read_xyz(const Source& source) {
-  try {
-    return read_rows(source);
-  } catch (const Fault& fault) {
-    throw_at_line(source, fault);
-  }
+  return with_line_feeds(source, has_only_carriage_returns(source.bytes), [](const Source& lines) {
+    try {
+      return read_rows(lines);
+    } catch (const Fault& fault) {
+      throw_at_line(lines, fault);
+    }
+  });
 }
 
 }  // namespace batten::io
