@@ -311,6 +311,39 @@ TEST(PlyWriter, ColoursThatCameAsBytesGoAsBytes) {
   }
 }
 
+TEST(PlyWriter, OtherColoursGoAsBytesAndExactlyBesideThem) {
+  Mesh mesh = random_mesh(4, 0);
+  mesh.attributes.push_back(
+      {"color", (Values(4, 3) << 0, 0.1, 0.5, 1, 0.999, 1.0 / 510, -2, 7, -0.0, 0, 0, 0).finished(), {}});
+  mesh.attributes[0].values(3, 1) = std::nan("");
+  const TemporaryFolder folder;
+  write_mesh(folder.path("c.ply"), mesh, {"", false});
+  const std::string text = file_text(folder.path("c.ply"));
+  // Other programs take the properties by name and want bytes.
+  const std::string header =
+      "property double z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+      "property double exact_red\nproperty double exact_green\nproperty double exact_blue\nend_header\n";
+  EXPECT_NE(text.find(header), std::string::npos) << text;
+  EXPECT_NE(text.find(" 0 26 128 0 0.1 0.5\n"), std::string::npos) << text;
+  EXPECT_NE(text.find(" 255 255 1 1 0.999 "), std::string::npos) << text;
+  EXPECT_NE(text.find(" 0 255 0 -2 7 -0\n"), std::string::npos) << text;
+  expect_same_mesh(mesh, read_mesh(folder.path("c.ply")));
+}
+
+TEST(PlyReader, ChangedBytesOverruleExactColours) {
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty double exact_red\n"
+      "property double exact_green\nproperty double exact_blue\nend_header\n0 0 0 51 0 0 0.2001 0 0\n";
+  const auto red_of_first = [&](const std::string& second) {
+    const Mesh mesh = ply(head + second);
+    EXPECT_EQ(mesh.attributes.size(), 1U);
+    return mesh.attributes.at(0).values(0, 0);
+  };
+  EXPECT_EQ(red_of_first("1 0 0 255 0 0 0.999 0 0\n"), 0.2001);
+  EXPECT_EQ(red_of_first("1 0 0 0 255 0 0.999 0 0\n"), 0.2);  // painted green elsewhere
+}
+
 TEST(PlyWriter, PolygonsOfAnySizeSurvive) {
   Mesh mesh = random_mesh(100000, 2);
   for (Index i = 0; i < 100000; ++i) mesh.face_vertices.push_back(i);

@@ -13,9 +13,9 @@
 ///         `creasemethod`, `smoothtriangles`, whose indices count from 0. All else is skipped. Groups without faces
 ///         are not kept.
 ///   PLY   text and both byte orders, any types, faces and triangle strips (`tristrips`; -1 begins a new strip). nx ny
-///         nz become "normal"; red green blue [alpha] become "color" (bytes become k/255); s t, u v and texture_u
-///         texture_v become "uv"; any other scalar of the vertices becomes an attribute ("uv_" for a scalar called uv).
-///         Other elements are skipped.
+///         nz become "normal"; red green blue [alpha] become "color" (bytes become k/255; exact_red and so on take
+///         their place, unless the bytes disagree); s t, u v and texture_u texture_v become "uv"; any other scalar of
+///         the vertices becomes an attribute ("uv_" for a scalar called uv). Other elements are skipped.
 ///   OFF   with normals (N), colours (C) and texture coordinates (ST) of the vertices. Binary OFF and other
 ///         dimensions are not read.
 ///   STL   text and bytes, distinguished by the size of the file. Equal coordinates become one vertex, in the order
@@ -60,8 +60,8 @@ struct WriteOptions {
 ///
 ///   OBJ   everything except `scheme` and attributes with names other than "uv", "normal" and "color" (at the
 ///         vertices)
-///   PLY   points, faces, attributes at the vertices (k columns with another name: NAME_0 and so on; colours that are
-///         all k/255 as bytes)
+///   PLY   points, faces, attributes at the vertices (k columns with another name: NAME_0 and so on). Colours are
+///         bytes, as other programs expect; if they are not all k/255, doubles called exact_red and so on follow
 ///   OFF   points and faces
 ///   XYZ   points, and "normal" at the vertices
 ///   STL   triangles, polygons as fans; bytes hold floats, in which vertices close to each other may coincide

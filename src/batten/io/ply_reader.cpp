@@ -113,6 +113,7 @@ Mesh read_ply_lines(const Source& source) {
     if (header.encoding == PlyEncoding::Text) throw_at_line(source, fault);
     throw_at_byte(source, fault);
   }
+  settle_ply_colors(mesh);
   note_skipped(source, targets);
   return mesh;
 }

@@ -2,10 +2,16 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
+
+#include "batten/parallel/parallel.h"
 
 namespace batten::io {
 
 namespace {
+
+/// The name of the exact colours until settle_ply_colors().
+constexpr const char* kExactColor = "exact_color";
 
 /// Properties that together form an attribute.
 struct Family {
@@ -18,6 +24,8 @@ const std::vector<Family>& families() {
   static const std::vector<Family> known = {{"normal", {"nx", "ny", "nz"}},
                                             {"color", {"red", "green", "blue", "alpha"}},
                                             {"color", {"red", "green", "blue"}},
+                                            {kExactColor, {"exact_red", "exact_green", "exact_blue", "exact_alpha"}},
+                                            {kExactColor, {"exact_red", "exact_green", "exact_blue"}},
                                             {"uv", {"s", "t"}},
                                             {"uv", {"u", "v"}},
                                             {"uv", {"texture_u", "texture_v"}}};
@@ -126,6 +134,31 @@ void allocate_ply_vertices(PlyTargets& targets, Mesh& mesh) {
     mesh.attributes.push_back({reserved ? name + "_" : name, Values(rows, 1), {}});
     place(static_cast<std::ptrdiff_t>(p), mesh.attributes.back().values.data(), 0, 1, 1.0);
   }
+}
+
+void settle_ply_colors(Mesh& mesh) {
+  const auto find = [&](const char* name) {
+    return std::find_if(mesh.attributes.begin(), mesh.attributes.end(),
+                        [&](const Attribute& a) { return a.name == name && a.values.cols() >= 3; });
+  };
+  const auto exact = find(kExactColor);
+  const auto bytes = find("color");
+  if (exact == mesh.attributes.end()) return;
+  if (bytes == mesh.attributes.end()) {
+    exact->name = "color";
+    return;
+  }
+  const double* given = bytes->values.data();
+  const double* precise = exact->values.data();
+  const bool agree = bytes->values.cols() == exact->values.cols() &&
+                     parallel_all_of(exact->values.size(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+                       for (std::ptrdiff_t i = begin; i < end; ++i) {
+                         if (color_byte(given[i]) != color_byte(precise[i])) return false;
+                       }
+                       return true;
+                     });
+  if (agree) bytes->values = std::move(exact->values);
+  mesh.attributes.erase(exact);
 }
 
 }  // namespace batten::io

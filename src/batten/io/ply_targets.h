@@ -1,5 +1,7 @@
 /// \file The destination of each value of a PLY row in a Mesh, for text and bytes alike.
 #pragma once
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -9,6 +11,15 @@
 #include "batten/mesh/mesh.h"
 
 namespace batten::io {
+
+/// Colours that are not all k/255 are written twice: as bytes for other programs, and as doubles in properties whose
+/// names begin with this, which the reader prefers as long as the bytes agree with them.
+inline constexpr const char* kPlyExactPrefix = "exact_";
+
+/// The nearest byte of a colour in [0, 1]; less and NaN are 0, more is 255.
+inline std::uint8_t color_byte(double value) {
+  return value > 0.0 ? static_cast<std::uint8_t>(std::lround(255.0 * std::min(value, 1.0))) : std::uint8_t{0};
+}
 
 /// The value of row i goes to values[stride * i + offset], divided by `divisor`. It is skipped if values is null.
 struct PlyColumn {
@@ -34,6 +45,9 @@ std::vector<PlyTargets> find_ply_targets(const std::string& name, const PlyHeade
 
 /// Resizes mesh.points and the attributes for the vertex element, and lets the columns point there.
 void allocate_ply_vertices(PlyTargets& targets, Mesh& mesh);
+
+/// Makes the exact colours that were read the mesh's colours, unless another program has changed the bytes.
+void settle_ply_colors(Mesh& mesh);
 
 /// Reads a vertex of a face, or of a strip, in which -1 may stand.
 template <typename RowValues>

@@ -5,6 +5,7 @@
 #include "batten/error.h"
 #include "batten/io/bytes.h"
 #include "batten/io/formats.h"
+#include "batten/io/ply_targets.h"
 #include "batten/io/text_output.h"
 
 namespace batten::io {
@@ -21,7 +22,7 @@ struct Column {
   ColumnType type;
 
   double value(std::ptrdiff_t row) const { return values[stride * row + offset]; }
-  std::uint8_t byte(std::ptrdiff_t row) const { return static_cast<std::uint8_t>(std::lround(255.0 * value(row))); }
+  std::uint8_t byte(std::ptrdiff_t row) const { return color_byte(value(row)); }
 };
 
 /// True if every value is exactly k / 255, as in a colour read from bytes.
@@ -60,12 +61,17 @@ std::vector<Column> find_columns(const std::string& file_name, const Mesh& mesh)
   for (const Attribute& attribute : mesh.attributes) {
     if (attribute.per_corner()) continue;
     const std::vector<std::string> names = property_names(attribute);
-    const bool bytes = attribute.name == "color" && holds_bytes(attribute.values);
-    for (std::size_t k = 0; k < names.size(); ++k) {
-      const ColumnType type = bytes ? ColumnType::Uchar : ColumnType::Double;
-      columns.push_back(
-          {names[k], attribute.values.data(), static_cast<std::ptrdiff_t>(k), attribute.values.cols(), type});
-    }
+    const bool color = attribute.name == "color";
+    const auto add = [&](const std::string& prefix, ColumnType type) {
+      for (std::size_t k = 0; k < names.size(); ++k) {
+        const auto column = static_cast<std::ptrdiff_t>(k);
+        columns.push_back({prefix + names[k], attribute.values.data(), column, attribute.values.cols(), type});
+      }
+    };
+    // Other programs expect bytes, and read numbers of other types as black.
+    if (color) add("", ColumnType::Uchar);
+    if (!color) add("", ColumnType::Double);
+    if (color && !holds_bytes(attribute.values)) add(kPlyExactPrefix, ColumnType::Double);
   }
   std::set<std::string> names;
   for (const Column& column : columns) {
