@@ -87,11 +87,12 @@ void draw_distances(const DistanceArguments& arguments, const Mesh& scan, const 
   draw(subject, arguments.picture, arguments.common.quiet);
 }
 
-void write_distances(const CommonArguments& common, Mesh& scan, const Scalars& distances) {
-  if (common.output.empty()) return;
-  std::erase_if(scan.attributes, [](const Attribute& attribute) { return attribute.name == "distance"; });
-  scan.attributes.push_back({"distance", distances, {}});
-  write_output(common, scan);
+void write_distances(Job& job, Mesh& scan, const Scalars& distances) {
+  if (!job.common.output.empty()) {
+    std::erase_if(scan.attributes, [](const Attribute& attribute) { return attribute.name == "distance"; });
+    scan.attributes.push_back({"distance", distances, {}});
+  }
+  job.write(scan);
 }
 
 std::string side_text(double most, Index count) {
@@ -147,8 +148,7 @@ int run_distance(const DistanceArguments& arguments) {
   const DistanceSummary summary = summarize_distances(measured.distances, measured.tolerance);
   const Histogram histogram = histogram_of(measured.distances);
   job.stages.finish("measure");
-  write_distances(common, scan, measured.distances);
-  job.stages.finish("write");
+  write_distances(job, scan, measured.distances);
   if (!arguments.picture.path.empty()) {
     draw_distances(arguments, scan, control, topology, scheme, measured);
     job.stages.finish("picture");

@@ -1,10 +1,13 @@
 #include "cli/input_output.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <utility>
 
 #include "batten/io/io.h"
+#include "batten/io/losses.h"
 #include "batten/mesh/triangulate.h"
 #include "batten/refine/refinement.h"
 #include "cli/progress.h"
@@ -18,7 +21,7 @@ Mesh read_file(const std::string& path, const std::string& format, bool quiet, s
   std::vector<std::string> found;
   Mesh mesh = read_mesh(path, format, ProgressBar("reading", quiet).callback(), &found);
   for (const std::string& text : found) {
-    if (!quiet) std::fprintf(stderr, "batten: %s\n", text.c_str());
+    if (!quiet) fmt::print(stderr, "batten: {}\n", text);
     if (notes != nullptr) notes->push_back(text);
   }
   return mesh;
@@ -42,6 +45,15 @@ void write_output(const CommonArguments& arguments, const Mesh& mesh) {
   if (arguments.output.empty()) return;
   ProgressBar bar("writing", arguments.quiet);
   write_mesh(arguments.output, mesh, {arguments.output_format, !arguments.ascii}, bar.callback());
+}
+
+std::vector<std::string> tell_losses(const CommonArguments& arguments, const Mesh& mesh) {
+  if (arguments.output.empty()) return {};
+  std::vector<std::string> losses = find_losses(arguments.output, mesh, {arguments.output_format, !arguments.ascii});
+  if (losses.empty() || arguments.quiet) return losses;
+  const std::string name = arguments.output == "-" ? "standard output" : arguments.output;
+  fmt::print(stderr, "batten: {}: lost: {}\n", name, fmt::join(losses, ", "));
+  return losses;
 }
 
 Scheme scheme_as_asked(const CommonArguments& arguments, const Mesh& mesh) {

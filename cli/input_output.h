@@ -17,6 +17,9 @@ Mesh read_input(const CommonArguments& arguments, nlohmann::ordered_json* repair
                 std::vector<std::string>* notes = nullptr);
 /// Writes to the output; does nothing without one.
 void write_output(const CommonArguments& arguments, const Mesh& mesh);
+/// What the output's format does not keep of the mesh, which is also printed on stderr unless quiet; nothing without an
+/// output.
+std::vector<std::string> tell_losses(const CommonArguments& arguments, const Mesh& mesh);
 /// The mesh's own scheme, overruled by the options.
 Scheme scheme_as_asked(const CommonArguments& arguments, const Mesh& mesh);
 /// As scheme_as_asked. Throws UsageError where an option has no effect on the scheme's kind.

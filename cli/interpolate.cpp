@@ -19,18 +19,18 @@ namespace {
 
 /// The control mesh, or where a refined surface was asked for, or the format holds nothing else, that surface.
 /// Returns what was written when it is not the control mesh.
-std::string write_result(const InterpolateArguments& arguments, const InterpolatedMesh& result) {
+std::string write_result(const InterpolateArguments& arguments, const InterpolatedMesh& result, Job& job) {
   const CommonArguments& common = arguments.common;
-  if (common.output.empty()) return {};
-  const bool surface = arguments.levels >= 0 || file_format(common.output, common.output_format) == "glb";
+  const bool surface =
+      !common.output.empty() && (arguments.levels >= 0 || file_format(common.output, common.output_format) == "glb");
   if (!surface) {
-    write_output(common, result.mesh);
+    job.write(result.mesh);
     return {};
   }
   const int levels = arguments.levels >= 0 ? arguments.levels : std::min(3, picture_levels(result.topology));
   ProgressBar bar("refining", common.quiet);
   const Mesh refined = surface_mesh(result.topology, result.scheme, result.mesh, levels, bar.callback());
-  write_output(common, refined);
+  job.write(refined);
   return fmt::format("the limit surface refined to {}, {}", count_of(levels, "level", "levels"), size_text(refined));
 }
 
@@ -295,8 +295,7 @@ int run_interpolate(const InterpolateArguments& arguments) {
   const Mesh given = drawn ? job.mesh : Mesh();
   const Points targets = arguments.compare_methods ? job.mesh.points : Points(0, 3);
   const InterpolatedMesh result = solve(arguments, topology, scheme, job);
-  const std::string written = write_result(arguments, result);
-  job.stages.finish("write");
+  const std::string written = write_result(arguments, result, job);
   if (drawn) {
     draw(subject_of(given, result, arguments.picture), arguments.picture, common.quiet);
     job.stages.finish("picture");

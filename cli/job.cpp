@@ -26,6 +26,7 @@ Topology Job::connect() {
 
 void Job::write(const Mesh& result) {
   write_output(common, result);
+  lost = tell_losses(common, result);
   stages.finish("write");
 }
 
@@ -35,8 +36,8 @@ void Job::print(Table table) const {
 }
 
 void Job::report(const nlohmann::ordered_json& facts) const {
-  nlohmann::ordered_json json = {
-      {"verb", verb}, {"input", common.input}, {"output", common.output}, {"repairs", repairs}, {"notes", notes}};
+  nlohmann::ordered_json json = {{"verb", verb},       {"input", common.input}, {"output", common.output},
+                                 {"repairs", repairs}, {"notes", notes},        {"lost", lost}};
   json.update(facts);
   if (seam_vertices) json["coincident_boundary_vertices"] = *seam_vertices;
   json["threads"] = thread_count();

@@ -19,7 +19,7 @@ struct Job {
 
   /// The topology of the mesh; counts as a stage. Says on stderr where seams stay open.
   Topology connect();
-  /// Writes a mesh to the output, if there is one; counts as a stage.
+  /// Writes a mesh to the output, if there is one, and tells what its format loses; counts as a stage.
   void write(const Mesh& result);
   /// Prints the table with the seconds of the stages as its last row.
   void print(Table table) const;
@@ -32,6 +32,7 @@ struct Job {
   Stages stages;
   nlohmann::ordered_json repairs;      ///< null without --repair
   std::vector<std::string> notes;      ///< what the readers skipped
+  std::vector<std::string> lost;       ///< what the output lacks
   std::optional<Index> seam_vertices;  ///< coincident_boundary_count, known after connect()
   Mesh mesh;
 };

@@ -97,15 +97,16 @@ std::vector<Frame> sequence_frames(const Run& run, const MeshSeries& series, con
   return frames;
 }
 
-void write_frames(const Run& run, const std::vector<Frame>& frames) {
+void write_frames(const Run& run, const std::vector<Frame>& frames, Job& job) {
   CommonArguments common = run.arguments.common;
   for (std::size_t i = 0; i < frames.size() && !run.arguments.common.output.empty(); ++i) {
     if (!run.arguments.at) common.output = numbered(run.arguments.common.output, i);
     write_output(common, with_points(run.mesh, frames[i].points));
   }
+  job.lost = tell_losses(run.arguments.common, run.mesh);  // all frames lose the same
 }
 
-void write_animated(const Run& run, const Morph& morph) {
+void write_animated(const Run& run, const Morph& morph, Job& job) {
   const CommonArguments& common = run.arguments.common;
   const int levels = run.arguments.levels >= 0 ? run.arguments.levels : std::min(3, picture_levels(run.topology));
   ProgressBar bar("refining", common.quiet);
@@ -113,6 +114,7 @@ void write_animated(const Run& run, const Morph& morph) {
                                              run.arguments.seconds, bar.callback());
   ProgressBar writing("writing", common.quiet);
   write_animation(common.output, surface.mesh, surface.targets, common.output_format, writing.callback());
+  job.lost = tell_losses(common, surface.mesh);
 }
 
 /// At most six of the frames, the ends among them.
@@ -200,9 +202,9 @@ int run_morph(const MorphArguments& arguments) {
     const Morph morph(series, mesh.points, end, arguments.options, ProgressBar("morphing", common.quiet).callback());
     frames = frames_of(run, morph);
     job.stages.finish("morph");
-    if (run.animated) write_animated(run, morph);
+    if (run.animated) write_animated(run, morph, job);
   }
-  if (!run.animated) write_frames(run, frames);
+  if (!run.animated) write_frames(run, frames, job);
   job.stages.finish("write");
   if (!arguments.picture.path.empty()) {
     draw_frames(run, frames);

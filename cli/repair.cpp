@@ -20,6 +20,7 @@ int run_repair(const RepairArguments& arguments) {
   const RepairResult repaired = repair(mesh, arguments.options, ProgressBar("repairing", common.quiet).callback());
   stages.finish("repair");
   write_output(common, repaired.mesh);
+  const std::vector<std::string> lost = tell_losses(common, repaired.mesh);
   stages.finish("write");
   Table table;
   table.add("mesh", size_text(mesh));
@@ -31,6 +32,7 @@ int run_repair(const RepairArguments& arguments) {
                               {"input", common.input},
                               {"output", common.output},
                               {"notes", notes},
+                              {"lost", lost},
                               {"weld", arguments.options.weld},
                               {"vertices_before", mesh.vertex_count()},
                               {"faces_before", mesh.face_count()},

@@ -22,6 +22,7 @@
 #include "batten/interpolate/method_comparison.h"
 #include "batten/io/animation.h"
 #include "batten/io/io.h"
+#include "batten/io/losses.h"
 #include "batten/limit/limit_matrix.h"
 #include "batten/mesh/check.h"
 #include "batten/mesh/discrete_curvature.h"

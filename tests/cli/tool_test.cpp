@@ -75,6 +75,20 @@ TEST_F(Tool, SaysWhatAReaderSkips) {
   EXPECT_EQ(nlohmann::json::parse(text_of(path("r.json")))["notes"], nlohmann::json::array());
 }
 
+TEST_F(Tool, SaysWhatTheOutputLoses) {
+  const Outcome result = run("convert " + kModels + "bracket.obj -o b.ply --report r.json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.err, "batten: b.ply: lost: creases\n");
+  EXPECT_EQ(nlohmann::json::parse(text_of(path("r.json")))["lost"], nlohmann::json::array({"creases"}));
+  EXPECT_EQ(run("convert " + kModels + "bracket.obj -o b.ply --quiet").err, "");
+  EXPECT_EQ(run("convert " + kModels + "bracket.obj -o b.obj").err, "");
+  EXPECT_EQ(run("interpolate " + kModels + "bracket.obj -o - --output-format off")
+                .err.find("batten: standard output: lost: creases\n"),
+            0U);
+  EXPECT_EQ(run("repair " + kModels + "bracket.obj -o b.off --report r.json").err, "batten: b.off: lost: creases\n");
+  EXPECT_EQ(nlohmann::json::parse(text_of(path("r.json")))["lost"], nlohmann::json::array({"creases"}));
+}
+
 TEST_F(Tool, SubdividesToTheLimitWithNormals) {
   ASSERT_EQ(run("subdivide " + kModels + "icosahedron.obj --levels 2 --limit -o fine.ply").status, 0);
   const Mesh fine = read_mesh(path("fine.ply"));

@@ -24,5 +24,8 @@ void write_xyz(OutputFile& file, const Mesh& mesh);
 /// In builds with tinygltf (BATTEN_WITH_GLTF) only. targets: null, or targets that write_animation has checked.
 void write_glb(OutputFile& file, const Mesh& mesh, const MorphTargets* targets = nullptr);
 void write_usda(OutputFile& file, const Mesh& mesh);
+/// True for polygons that USDA holds as they are: a mesh with normals and without any choice about a subdivision
+/// surface, and a mesh of the Butterflies, which USD does not know.
+bool is_usda_polygonal(const Mesh& mesh);
 
 }  // namespace batten::io

@@ -13,15 +13,6 @@ namespace batten::io {
 
 namespace {
 
-/// True for polygons that are drawn as they are: a mesh with normals and without any choice about a subdivision
-/// surface, and a mesh of the Butterflies, which USD does not know.
-bool is_polygonal(const Mesh& mesh) {
-  if (mesh.scheme && is_interpolating(*mesh.scheme)) return true;
-  const bool has_word = mesh.scheme || mesh.boundary || mesh.crease_method || mesh.triangle_rule ||
-                        !mesh.creases.empty() || !mesh.corners.empty() || !mesh.holes.empty();
-  return !has_word && corner_list(mesh, "normal").attribute != nullptr;
-}
-
 /// USD's surfaces have OpenSubdiv's default creases only. Chaikin's creases differ where sharpness fades.
 void require_uniform_creases(const std::string& name, const Mesh& mesh) {
   if (mesh.crease_method != CreaseMethod::Chaikin) return;
@@ -58,7 +49,7 @@ class UsdaMesh {
     out_.open("def Mesh \"surface\"");
     write_faces();
     write_points();
-    if (is_polygonal(mesh_)) {
+    if (is_usda_polygonal(mesh_)) {
       out_.line("uniform token subdivisionScheme = \"none\"");
       write_normals();
     } else {
@@ -217,6 +208,13 @@ class UsdaMesh {
 };
 
 }  // namespace
+
+bool is_usda_polygonal(const Mesh& mesh) {
+  if (mesh.scheme && is_interpolating(*mesh.scheme)) return true;
+  const bool has_word = mesh.scheme || mesh.boundary || mesh.crease_method || mesh.triangle_rule ||
+                        !mesh.creases.empty() || !mesh.corners.empty() || !mesh.holes.empty();
+  return !has_word && corner_list(mesh, "normal").attribute != nullptr;
+}
 
 void write_usda(OutputFile& file, const Mesh& mesh) { UsdaMesh(file, mesh).write(); }
 
