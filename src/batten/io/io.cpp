@@ -5,6 +5,7 @@
 
 #include "batten/error.h"
 #include "batten/io/formats.h"
+#include "batten/io/gzip.h"
 #include "batten/io/write_check.h"
 #include "batten/progress.h"
 
@@ -39,12 +40,23 @@ constexpr Format kFormats[] = {
     {"usda", nullptr, [](io::OutputFile& file, const Mesh& mesh, io::Encoding) { io::write_usda(file, mesh); }},
 };
 
+/// The extension in lower case and without the dot.
+std::string plain_extension(std::string extension) {
+  if (!extension.empty() && extension[0] == '.') extension.erase(0, 1);
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return extension;
+}
+
+bool has_gzip_extension(const std::filesystem::path& path) {
+  return plain_extension(path.extension().string()) == "gz";
+}
+
 /// The requested format, or that of the extension. A leading dot and capital letters are ignored.
 const Format& find_format(const std::string& path, const std::string& asked) {
-  std::string wanted = asked.empty() ? std::filesystem::path(path).extension().string() : asked;
-  if (!wanted.empty() && wanted[0] == '.') wanted.erase(0, 1);
-  std::transform(wanted.begin(), wanted.end(), wanted.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const std::filesystem::path file(path);
+  const std::filesystem::path plain = has_gzip_extension(file) ? file.stem() : file;
+  const std::string wanted = plain_extension(asked.empty() ? plain.extension().string() : asked);
   std::string known;
   for (const Format& format : kFormats) {
     if (wanted == format.extension) return format;
@@ -61,6 +73,11 @@ std::string_view without_byte_order_mark(std::string_view bytes) {
   return bytes.substr(0, kMark.size()) == kMark ? bytes.substr(kMark.size()) : bytes;
 }
 
+Mesh read_bytes(const Format& format, io::Source source) {
+  source.bytes = without_byte_order_mark(source.bytes);
+  return format.read(source);
+}
+
 }  // namespace
 
 std::string file_format(const std::string& path, const std::string& wish) { return find_format(path, wish).extension; }
@@ -74,12 +91,23 @@ Mesh read_mesh(const std::string& path, const std::string& format, const Progres
                 path + ": " + known.extension + " is only written; read the mesh that it was made from");
   }
   const io::InputFile file(path, progress_within(progress, 0.0, kFetched));
-  return known.read({path == "-" ? "standard input" : path, without_byte_order_mark(file.bytes()), io::kChunkBytes,
-                     progress_within(progress, kFetched, 1.0), notes});
+  io::Source source{path == "-" ? "standard input" : path, file.bytes(), io::kChunkBytes,
+                    progress_within(progress, kFetched, 1.0), notes};
+  if (!io::is_gzip(source.bytes)) return read_bytes(known, source);
+  constexpr double kUnpacked = 0.5;  // of the rest
+  const Progress rest = source.progress;
+  source.progress = progress_within(rest, 0.0, kUnpacked);
+  const Buffer<char> unpacked = io::unpack_gzip(source);
+  source.progress = progress_within(rest, kUnpacked, 1.0);
+  source.bytes = {unpacked.data(), unpacked.size()};
+  return read_bytes(known, source);
 }
 
 void write_mesh(const std::string& path, const Mesh& mesh, const WriteOptions& options, const Progress& progress) {
   const Format& known = find_format(path, options.format);
+  if (has_gzip_extension(path)) {
+    throw Error(ErrorCode::UnknownFormat, path + ": .gz files are only read; write the file without it, then gzip it");
+  }
   const std::string name = path == "-" ? "standard output" : path;
   io::require_writable(name, mesh);
   write_atomically(path, [&](const std::string& target) {
