@@ -57,7 +57,7 @@ int run(int argc, char** argv) {
   add_input(info, verbs.info);
   add_repair_flag(info, verbs.info);
   set_run(info, verbs.info, status, [&] { return run_info(verbs.info); });
-  CLI::App& convert = *app.add_subcommand("convert", "read one format, write another");
+  CLI::App& convert = *app.add_subcommand("convert", "read one format, write another, and say what is lost");
   add_input(convert, verbs.convert);
   add_output(convert, verbs.convert);
   add_repair_flag(convert, verbs.convert);

@@ -76,9 +76,11 @@ void add_repair_flag(CLI::App& verb, CommonArguments& common) {
 }
 
 void add_input(CLI::App& verb, CommonArguments& common, const std::string& name) {
-  add_input_file(verb, name, common.input, "mesh file: .obj .ply .off .stl .xyz, or - for standard input")->required();
+  add_input_file(verb, name, common.input,
+                 "mesh file: .obj .ply .off .stl .xyz .glb .gltf, also as .gz, or - for standard input")
+      ->required();
   verb.add_option("--input-format", common.input_format, "the input's type where its name does not tell")
-      ->option_text("obj|ply|off|stl|xyz");
+      ->option_text("obj|ply|off|stl|xyz|glb|gltf");
   verb.add_option("--threads", common.threads, "use at most so many threads (the result is the same)")
       ->check(whole_number(0))
       ->option_text("N");

@@ -226,7 +226,7 @@ TEST(GlbWriter, RefusesWhatGlbCannotHold) {
       },
       ErrorCode::NotFinite, "'normal', row 0");
   expect([](Mesh& m) { m.attributes = {{"uv", Values::Constant(9, 2, HUGE_VAL), {}}}; }, ErrorCode::NotFinite, "'uv'");
-  expect_error([&] { read_mesh(folder.path("m.glb")); }, ErrorCode::UnknownFormat, "only written");
+  expect_error([&] { read_mesh(folder.path("m.usda")); }, ErrorCode::UnknownFormat, "only written");
   EXPECT_EQ(folder.file_count(), 0);
 }
 

@@ -119,6 +119,7 @@ TEST(Losses, LooseVerticesAndUnknownFormats) {
   EXPECT_EQ(find_losses("m.stl", mesh), Words{"vertices without a face"});
   EXPECT_EQ(find_losses("m.ply", mesh), Words{});
   expect_error([&] { find_losses("m.abc", mesh); }, ErrorCode::UnknownFormat, "'abc'");
+  expect_error([&] { find_losses("m.gltf", mesh); }, ErrorCode::UnknownFormat, "only read");
   EXPECT_EQ(find_losses("-", mesh, {"xyz"}), Words{"faces"});
 }
 

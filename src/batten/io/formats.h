@@ -14,6 +14,9 @@ Mesh read_ply(const Source& source);
 Mesh read_off(const Source& source);
 Mesh read_stl(const Source& source);
 Mesh read_xyz(const Source& source);
+/// GLB and glTF; in builds with tinygltf (BATTEN_WITH_GLTF) only. Buffers in files of their own are read from the
+/// folder of the source's name.
+Mesh read_gltf(const Source& source);
 
 /// The writers do not check the mesh: require_writable (write_check.h) must be called first.
 void write_obj(OutputFile& file, const Mesh& mesh);

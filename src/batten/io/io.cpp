@@ -17,6 +17,7 @@ struct Format {
   const char* extension;
   /// Null for formats that are only written.
   Mesh (*read)(const io::Source& source);
+  /// Null for formats that are only read.
   void (*write)(io::OutputFile& file, const Mesh& mesh, io::Encoding encoding);
 };
 
@@ -30,13 +31,22 @@ void write_glb(io::OutputFile& file, const Mesh& mesh, io::Encoding /*encoding*/
 #endif
 }
 
+Mesh read_gltf(const io::Source& source) {
+#ifdef BATTEN_WITH_GLTF
+  return io::read_gltf(source);
+#else
+  throw Error(ErrorCode::NotAvailable, source.name + ": this build reads no glTF; configure with BATTEN_WITH_GLTF=ON");
+#endif
+}
+
 constexpr Format kFormats[] = {
     {"obj", io::read_obj, [](io::OutputFile& file, const Mesh& mesh, io::Encoding) { io::write_obj(file, mesh); }},
     {"ply", io::read_ply, io::write_ply},
     {"off", io::read_off, [](io::OutputFile& file, const Mesh& mesh, io::Encoding) { io::write_off(file, mesh); }},
     {"stl", io::read_stl, io::write_stl},
     {"xyz", io::read_xyz, [](io::OutputFile& file, const Mesh& mesh, io::Encoding) { io::write_xyz(file, mesh); }},
-    {"glb", nullptr, write_glb},
+    {"glb", read_gltf, write_glb},
+    {"gltf", read_gltf, nullptr},
     {"usda", nullptr, [](io::OutputFile& file, const Mesh& mesh, io::Encoding) { io::write_usda(file, mesh); }},
 };
 
@@ -105,6 +115,9 @@ Mesh read_mesh(const std::string& path, const std::string& format, const Progres
 
 void write_mesh(const std::string& path, const Mesh& mesh, const WriteOptions& options, const Progress& progress) {
   const Format& known = find_format(path, options.format);
+  if (known.write == nullptr) {
+    throw Error(ErrorCode::UnknownFormat, path + ": " + known.extension + " is only read; write glb instead");
+  }
   if (has_gzip_extension(path)) {
     throw Error(ErrorCode::UnknownFormat, path + ": .gz files are only read; write the file without it, then gzip it");
   }

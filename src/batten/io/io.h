@@ -1,5 +1,6 @@
-/// \file Reads and writes meshes and points. The file type follows the extension: .obj .ply .off .stl .xyz, and for
-/// writing only .glb .usda. A gzip file, such as scan.ply.gz, is unpacked while it is read.
+/// \file Reads and writes meshes and points. The file type follows the extension: .obj .ply .off .stl .xyz
+/// .glb, for reading only .gltf, for writing only .usda. A gzip file, such as scan.ply.gz, is unpacked while it is
+/// read.
 ///
 /// Readers keep every double bit for bit, polygons of any size, and the file's choices about the surface. They check
 /// the syntax: a bad token, a missing coordinate or an index out of range throws an Error that names the file and the
@@ -23,6 +24,12 @@
 ///         add up to the size of the file; otherwise the rest is skipped.
 ///   XYZ   points in 3 columns, or 6 with "normal"; with another number, the further columns are "extra". Blanks or
 ///         commas separate numbers; # begins a comment.
+///
+///   GLB   and glTF 2.0: the triangles, strips and fans of the scene, moved by their nodes. Within a node, vertices
+///   with
+///         equal coordinates become one; TEXCOORD_0 (v turned to point up), NORMAL and COLOR_0 (linear colours become
+///         sRGB) become "uv", "normal" and "color", at the corners where a seam splits a vertex, otherwise at the
+///         vertices. Nodes become groups o, materials usemtl. Draco and meshopt packing is refused.
 ///
 /// Lines end in a line feed, with or without a carriage return, or in a carriage return alone.
 /// Coordinates and sharpness values must be finite. Other attributes may hold NaN and are kept unchanged.
@@ -78,11 +85,11 @@ struct WriteOptions {
 ///         "none").
 ///
 /// If anything fails, an existing file stays unchanged (write_atomically). "-" writes to standard output.
-/// Throws Error(FileNotWritable, UnknownFormat (also for .gz), Cancelled), and for a mesh that no reader would accept NotFinite,
-/// BadShape, IndexOutOfRange, DegenerateFace (fewer than three corners), BadArgument (a name with a line end, a
-/// repeated property, a coordinate outside the range of float, semi-sharp Chaikin creases in USDA), TooLarge (a GLB
-/// above 4 GiB), NotAvailable (GLB in a build without tinygltf).
-/// Cost: O(V + F); a few megabytes of memory besides the mesh.
+/// Throws Error(FileNotWritable, UnknownFormat (also for .gz), Cancelled), and for a mesh that no reader would accept
+/// NotFinite, BadShape, IndexOutOfRange, DegenerateFace (fewer than three corners), BadArgument (a name with a line
+/// end, a repeated property, a coordinate outside the range of float, semi-sharp Chaikin creases in USDA), TooLarge (a
+/// GLB above 4 GiB), NotAvailable (GLB in a build without tinygltf). Cost: O(V + F); a few megabytes of memory besides
+/// the mesh.
 void write_mesh(const std::string& path, const Mesh& mesh, const WriteOptions& options = {},
                 const Progress& progress = {});
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "batten/error.h"
 #include "batten/io/formats.h"
 
 namespace batten {
@@ -136,6 +137,9 @@ std::vector<std::string> find_losses(const std::string& path, const Mesh& mesh, 
   const std::string format = file_format(path, options.format);
   const Place* const place =
       std::find_if(std::begin(kPlaces), std::end(kPlaces), [&](const Place& p) { return format == p.format; });
+  if (place == std::end(kPlaces)) {
+    throw Error(ErrorCode::UnknownFormat, path + ": " + format + " is only read; write glb instead");
+  }
   return Losses(*place, mesh).find(options.binary);
 }
 
