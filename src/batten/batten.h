@@ -1,6 +1,8 @@
 /// \file Everything of the library but pictures (render/render.h).
 #pragma once
 #include "batten/adaptive/adaptive.h"
+#include "batten/energy/energy_kind.h"
+#include "batten/energy/surface_energy.h"
 #include "batten/error.h"
 #include "batten/expand/bands.h"
 #include "batten/expand/color_ramp.h"
