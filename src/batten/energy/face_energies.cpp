@@ -23,7 +23,7 @@ MatrixXd pulled_back(const MatrixXd& matrix, const MatrixXd& rows) { return rows
 /// Works out the energies of ring types, children before their parents.
 class RingEnergyBuilder {
  public:
-  RingEnergyBuilder(bool quads, const RingTypes& types) : types_(types), quads_(quads) {
+  RingEnergyBuilder(bool quads, const RingTypes& types) : types_(types) {
     const auto count = static_cast<std::size_t>(types.type_count());
     energies_.resize(count);
     places_.resize(count);
@@ -47,7 +47,6 @@ class RingEnergyBuilder {
   }
 
   const RingTypes& types_;
-  bool quads_;
   std::array<MatrixXd, 3> regular_;
   std::vector<FaceEnergy> energies_;
   std::vector<Buffer<Index>> places_;  ///< of each ring's points among those that count, or kNone
