@@ -32,7 +32,7 @@ std::string stored(const std::string& text) {
   return file + number(checksum(text), 4) + number(static_cast<std::uint32_t>(text.size()), 4);
 }
 
-const char* const kText = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+const char* const kObjText = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
 Mesh read_bytes(const std::string& name, const std::string& bytes) {
   const TemporaryFolder folder;
@@ -41,14 +41,14 @@ Mesh read_bytes(const std::string& name, const std::string& bytes) {
 }
 
 TEST(Gzip, TheTypeStandsBeforeTheExtension) {
-  const Mesh expected = parse(io::read_obj, kText);
-  expect_same_mesh(expected, read_bytes("m.obj.gz", stored(kText)));
-  expect_same_mesh(expected, read_bytes("M.OBJ.GZ", stored(kText)));
-  expect_same_mesh(expected, read_bytes("m.obj", stored(kText)));
-  expect_same_mesh(expected, read_bytes("m.obj.gz", kText));  // some browsers unpack while they download
-  expect_same_mesh(expected, read_bytes("m.obj.gz", stored("\xEF\xBB\xBF" + std::string(kText))));
-  expect_error([] { read_bytes("m.gz", stored(kText)); }, ErrorCode::UnknownFormat, "no file type");
-  expect_error([] { read_bytes("m.abc.gz", stored(kText)); }, ErrorCode::UnknownFormat, "'abc'");
+  const Mesh expected = parse(io::read_obj, kObjText);
+  expect_same_mesh(expected, read_bytes("m.obj.gz", stored(kObjText)));
+  expect_same_mesh(expected, read_bytes("M.OBJ.GZ", stored(kObjText)));
+  expect_same_mesh(expected, read_bytes("m.obj", stored(kObjText)));
+  expect_same_mesh(expected, read_bytes("m.obj.gz", kObjText));  // some browsers unpack while they download
+  expect_same_mesh(expected, read_bytes("m.obj.gz", stored("\xEF\xBB\xBF" + std::string(kObjText))));
+  expect_error([] { read_bytes("m.gz", stored(kObjText)); }, ErrorCode::UnknownFormat, "no file type");
+  expect_error([] { read_bytes("m.abc.gz", stored(kObjText)); }, ErrorCode::UnknownFormat, "'abc'");
 }
 
 TEST(Gzip, WhatGzipPackedIsRead) {
@@ -63,7 +63,7 @@ TEST(Gzip, WhatGzipPackedIsRead) {
 }
 
 TEST(Gzip, ALargeFileAndSeveralInARowAreOneText) {
-  std::string text(kText);
+  std::string text(kObjText);
   for (int i = 0; i < 300000; ++i) text += "f 3 2 1\n";
   EXPECT_EQ(read_bytes("m.obj.gz", stored(text)).face_count(), 300001);
   const std::string parts = stored(text.substr(0, 13)) + stored(text.substr(13));
@@ -72,7 +72,7 @@ TEST(Gzip, ALargeFileAndSeveralInARowAreOneText) {
 }
 
 TEST(Gzip, EveryCutAndEveryWrongByteIsAnError) {
-  const std::string whole = stored(kText);
+  const std::string whole = stored(kObjText);
   for (std::size_t size = 1; size < whole.size(); ++size) {
     EXPECT_EQ(error_of([&] { read_bytes("m.obj.gz", whole.substr(0, size)); })->code(), ErrorCode::BadFile) << size;
   }
@@ -89,7 +89,7 @@ TEST(Gzip, EveryCutAndEveryWrongByteIsAnError) {
 
 TEST(Gzip, NothingIsWrittenUnderThatName) {
   const TemporaryFolder folder;
-  const Mesh mesh = parse(io::read_obj, kText);
+  const Mesh mesh = parse(io::read_obj, kObjText);
   expect_error([&] { write_mesh(folder.path("m.obj.gz"), mesh); }, ErrorCode::UnknownFormat, "only read");
   EXPECT_EQ(folder.file_count(), 0);
 }

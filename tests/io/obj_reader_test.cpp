@@ -37,7 +37,7 @@ TEST(ObjReader, ACommentThatEndsInABackslashHidesNoLine) {
 }
 
 TEST(ObjReader, CarriageReturnsAloneEndLines) {
-  const std::string text = std::string("# comment\nusemtl a b\n") + kTriangle + "f 1 \\\n2 3\n";
+  const std::string text = std::string("# comment\nusemtl a b\n") + kCorners + "f 1 \\\n2 3\n";
   for (const std::size_t chunk : {std::size_t{1}, io::kChunkBytes}) {
     const Mesh mesh = parse(io::read_obj, with_carriage_returns(text), chunk);
     EXPECT_EQ(mesh.face_count(), 1);
@@ -55,7 +55,7 @@ TEST(ObjReader, SkippedStatementsAreNamedWithTheirFirstLine) {
       "test: curves and free-form surfaces (`curv`, `surf`) are skipped: 1 (the first in line 9)"};
   EXPECT_EQ(notes_of(io::read_obj, text), expected);
   EXPECT_EQ(notes_of(io::read_obj, text, 1), expected);
-  EXPECT_EQ(notes_of(io::read_obj, std::string(kTriangle) + "v 1 1 1 1\nf 1 2 3\n"), std::vector<std::string>());
+  EXPECT_EQ(notes_of(io::read_obj, std::string(kCorners) + "v 1 1 1 1\nf 1 2 3\n"), std::vector<std::string>());
 }
 
 TEST(ObjReader, NegativeIndicesCountBackFromTheLine) {
