@@ -16,6 +16,15 @@
 #include "batten/mesh/primitives.h"
 #include "cli/process.h"
 
+// g++ has a macro for it, clang a question.
+#if defined(__SANITIZE_ADDRESS__)
+#define BATTEN_ADDRESS_SANITIZER 1
+#elif defined(__has_feature)
+#define BATTEN_ADDRESS_SANITIZER __has_feature(address_sanitizer)
+#else
+#define BATTEN_ADDRESS_SANITIZER 0
+#endif
+
 namespace batten::cli_tests {
 namespace {
 
@@ -220,7 +229,7 @@ TEST_F(Failure, AHeaderThatClaimsTooMuchIsRefused) {
   write("out.obj", kPrecious);
   // No more memory than this may be asked for: the claim alone must not cost anything.
   const auto limit = [] {
-#if defined(__SANITIZE_ADDRESS__)
+#if BATTEN_ADDRESS_SANITIZER
     // Its shadow takes terabytes of addresses, so it has a limit of its own.
     ::setenv("ASAN_OPTIONS", "max_allocation_size_mb=2048", 1);
 #else

@@ -88,6 +88,8 @@ class LightPacket {
   void flush(const Seen& seen) {
     alignas(64) int valid[kPacket];
     for (int lane = 0; lane < kPacket; ++lane) valid[lane] = lane < count_ ? -1 : 0;
+    // Where Embree has no packets of sixteen, it looks at the rays' intervals instead of `valid`.
+    std::fill(packet_.tfar + count_, packet_.tfar + kPacket, -1.0F);
     if (count_ > 0) rays_.occlude(valid, packet_);
     for (int lane = 0; lane < count_; ++lane)
       seen(*shades_[static_cast<std::size_t>(lane)], packet_.tfar[lane] >= 0.0F);
@@ -96,7 +98,7 @@ class LightPacket {
 
  private:
   const Rays& rays_;
-  RTCRay16 packet_;
+  RTCRay16 packet_{};  ///< numbers in unused rays too, since Embree may check them
   std::array<const Shade*, kPacket> shades_{};
   int count_ = 0;
 };
