@@ -9,10 +9,10 @@
 #include "batten/error.h"
 #include "batten/limit/vertex_limit.h"
 #include "batten/parallel/parallel.h"
-#include "batten/progress.h"
 #include "batten/patch/face_types.h"
 #include "batten/patch/halving.h"
 #include "batten/patch/spline_jet.h"
+#include "batten/progress.h"
 
 namespace batten {
 
