@@ -29,8 +29,10 @@ struct Expansion {
   Point centre;
 };
 
-/// What becomes of a cell: a leaf within the tolerance, a cell that is cut, a leaf of max_level beyond the tolerance.
-enum CellFlag : std::uint8_t { kMet = 0, kCut = 1, kUnmet = 2 };
+/// A flag says what becomes of a cell.
+constexpr std::uint8_t kMet = 0;    ///< a leaf within the tolerance
+constexpr std::uint8_t kCut = 1;    ///< cut into four
+constexpr std::uint8_t kUnmet = 2;  ///< a leaf of max_level beyond the tolerance
 
 /// Visits the cells of base faces depth first. Each thread uses its own object.
 class CellWalk {
@@ -43,7 +45,7 @@ class CellWalk {
         corners_(nets.quads() ? 4 : 3),
         levels_(static_cast<std::size_t>(CellForest::kMostLevels + kLookAhead) + 4) {}
 
-  /// Appends a CellFlag for each cell, depth first.
+  /// Appends a flag for each cell, depth first.
   void walk(Index face, const CornerPoints& corners, Buffer<std::uint8_t>& flags) {
     nets_.root(face, root_);
     visit(root_, corners, curve_sides(face), flags);

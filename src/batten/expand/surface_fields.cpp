@@ -53,9 +53,9 @@ Scalars curvature_field(const FieldSurface& surface, bool mean, int levels) {
 }
 
 /// From the control mesh's vertices linearly over its faces.
-Scalars spread(const Topology& topology, const Tessellator& tessellator, Scalars field) {
+Scalars spread(const Topology& topology, const Tessellator& tessellator, const Scalars& field) {
   const Eigen::Index given = field.size();
-  const Attribute fine = tessellator.at_corners({"", std::move(field), topology.tables().origins});
+  const Attribute fine = tessellator.at_corners({"", field, topology.tables().origins});
   Buffer<Index> faces(fine.corner_rows.size());
   tessellator.faces(faces);
   // Those that no drawn face has are not seen.

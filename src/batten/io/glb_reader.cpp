@@ -137,7 +137,9 @@ class GltfReader {
     };
     std::vector<Next> stack;
     const auto push = [&](const std::vector<int>& nodes, const Eigen::Matrix4d& parent) {
-      for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) stack.push_back({*node, parent});
+      const auto pushed = static_cast<std::ptrdiff_t>(stack.size());
+      for (const int node : nodes) stack.push_back({node, parent});
+      std::reverse(stack.begin() + pushed, stack.end());
     };
     std::vector<std::uint8_t> visited(model_.nodes.size(), 0);
     push(roots(), Eigen::Matrix4d::Identity());
