@@ -120,9 +120,9 @@ void describe_seams(Index count, bool repaired, Table& table, Json& json) {
 /// "by Chebyshev in tiles in 30 iterations"
 std::string solve_text(const SolveReport& solve) {
   if (solve.method == SolveMethod::Auto) return "without solving anything";
-  const std::string text = "by " + solve.method_name;
-  if (solve.iterations == 0) return text;
-  return text + " in " + count_of(solve.iterations, "iteration", "iterations");
+  std::string text = "by " + solve.method_name;
+  if (solve.iterations > 0) text += " in " + count_of(solve.iterations, "iteration", "iterations");
+  return text;
 }
 
 /// Takes the mesh as the control points of a surface and finds them again from the limit positions.

@@ -115,9 +115,9 @@ bool is_given(const CLI::App& verb, const std::string& option) {
 }
 
 void require_alone(const CLI::App& verb, const std::string& name, const std::vector<std::string>& others) {
-  for (const std::string& other : others) {
-    if (is_given(verb, other)) throw UsageError(other + " does nothing with " + name + "; leave one of them out");
-  }
+  const auto given = [&](const std::string& option) { return is_given(verb, option); };
+  const auto other = std::find_if(others.begin(), others.end(), given);
+  if (other != others.end()) throw UsageError(*other + " does nothing with " + name + "; leave one of them out");
 }
 
 void require_with(const CLI::App& verb, const std::vector<std::string>& options,
@@ -126,9 +126,8 @@ void require_with(const CLI::App& verb, const std::vector<std::string>& options,
   if (std::any_of(needed.begin(), needed.end(), given)) return;
   std::string names;
   for (const std::string& name : needed) names += (names.empty() ? "" : " or ") + name;
-  for (const std::string& option : options) {
-    if (given(option)) throw UsageError(option + " does nothing without " + names);
-  }
+  const auto option = std::find_if(options.begin(), options.end(), given);
+  if (option != options.end()) throw UsageError(*option + " does nothing without " + names);
 }
 
 CLI::Validator whole_number(long long low, long long high) {
