@@ -47,7 +47,7 @@ namespace batten {
 /// Throws Error(FileNotReadable, UnknownFormat, BadFile, IndexOutOfRange, NotFinite, TooLarge, Cancelled).
 /// Cost: O(bytes); on two cores OBJ 800 MB/s, binary PLY 1500 MB/s, binary STL 200 MB/s. Memory: the mesh and the file;
 /// for OBJ twice the mesh and the file. A broken file never takes more than 64 times its size. The size of a gzip file
-/// is that of its content here; unpacking runs at 300 MB/s. Throws Error(NotAvailable) for one in a build without zlib.
+/// is that of its content here. Throws Error(NotAvailable) for one in a build without zlib.
 /// notes: null, or gets a sentence ("NAME: ...") for everything that the file holds and the mesh does not, such as
 /// skipped statements.
 Mesh read_mesh(const std::string& path, const std::string& format = "", const Progress& progress = {},
