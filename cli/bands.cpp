@@ -6,6 +6,7 @@
 #include "batten/error.h"
 #include "batten/expand/bands.h"
 #include "batten/expand/point_series.h"
+#include "batten/mesh/measures.h"
 #include "batten/mesh/moved_mesh.h"
 #include "cli/expand.h"
 #include "cli/job.h"
@@ -54,7 +55,7 @@ nlohmann::ordered_json report_json(const BandsArguments& arguments, const Topolo
           {"faces", topology.face_count()},
           {"scheme", scheme_json(scheme)},
           {"weights", weights_word(arguments.matrix)},
-          {"mean_edge", mean_edge_length(topology, mesh.points)},
+          {"mean_edge", edge_lengths(topology, mesh.points).mean},
           {"bands", bands}};
 }
 

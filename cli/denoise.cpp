@@ -3,6 +3,7 @@
 
 #include "batten/error.h"
 #include "batten/expand/strength.h"
+#include "batten/mesh/measures.h"
 #include "batten/mesh/moved_mesh.h"
 #include "cli/expand.h"
 #include "cli/job.h"
@@ -109,7 +110,7 @@ int run_denoise(const DenoiseArguments& arguments) {
     job.stages.finish("picture");
   }
   const double diagonal = bounding_diagonal(mesh.points);
-  print_table(arguments, topology, scheme, result, diagonal, mean_edge_length(topology, mesh.points), job);
+  print_table(arguments, topology, scheme, result, diagonal, edge_lengths(topology, mesh.points).mean, job);
   job.report(report_json(arguments, topology, scheme, result, diagonal));
   return 0;
 }

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "batten/io/io.h"
-#include "batten/mesh/moved_mesh.h"
+#include "batten/mesh/measures.h"
 #include "cli/tool.h"
 
 namespace batten::cli_tests {
@@ -50,8 +50,8 @@ TEST_F(Tool, DenoiseComparesTheNoiseWithTheEdgesGiven) {
   ASSERT_EQ(result.status, 0) << result.err;
   const Mesh given = read_mesh(kModels + "torus-knot.obj");
   const Mesh smooth = read_mesh(path("a.obj"));
-  const double edge = mean_edge_length(Topology(given), given.points);
-  ASSERT_LT(mean_edge_length(Topology(smooth), smooth.points), 0.9 * edge);
+  const double edge = edge_lengths(Topology(given), given.points).mean;
+  ASSERT_LT(edge_lengths(Topology(smooth), smooth.points).mean, 0.9 * edge);
   const double noise = nlohmann::json::parse(text_of(path("r.json")))["noise"].get<double>();
   EXPECT_NEAR(noise_share(result.out), noise / edge, 0.01 * noise / edge);  // three digits are printed
 }

@@ -32,12 +32,5 @@ TEST(WithPoints, KeepsAllButTheOldNormals) {
   EXPECT_THROW(with_points(mesh, Points::Zero(3, 3)), Error);
 }
 
-TEST(MeanEdgeLength, IsThatOfACube) {
-  const Mesh mesh = cube();
-  const double edge = (mesh.points.row(mesh.face_vertices[0]) - mesh.points.row(mesh.face_vertices[1])).norm();
-  EXPECT_DOUBLE_EQ(mean_edge_length(Topology(mesh), mesh.points), edge);
-  EXPECT_EQ(mean_edge_length(Topology(Mesh()), Points(0, 3)), 0.0);
-}
-
 }  // namespace
 }  // namespace batten
