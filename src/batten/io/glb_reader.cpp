@@ -117,7 +117,8 @@ class GltfReader {
   std::vector<int> roots() const {
     if (!model_.scenes.empty()) {
       const int scene = std::max(model_.defaultScene, 0);
-      if (static_cast<std::size_t>(scene) >= model_.scenes.size()) fail(source_.name, "there is no such scene");
+      if (static_cast<std::size_t>(scene) >= model_.scenes.size())
+        fail(source_.name, "scene " + std::to_string(scene) + " is not in the file; export it again");
       return model_.scenes[static_cast<std::size_t>(scene)].nodes;
     }
     std::vector<int> all;
@@ -147,8 +148,10 @@ class GltfReader {
       const Next next = stack.back();
       stack.pop_back();
       const auto index = static_cast<std::size_t>(next.node);
-      if (next.node < 0 || index >= model_.nodes.size()) fail(source_.name, "there is no such node");
-      if (visited[index]++ > 0) fail(source_.name, "a node has two parents");
+      if (next.node < 0 || index >= model_.nodes.size())
+        fail(source_.name, "node " + std::to_string(next.node) + " is not in the file; export it again");
+      if (visited[index]++ > 0)
+        fail(source_.name, "node " + std::to_string(next.node) + " has two parents; give each copy a node of its own");
       const tinygltf::Node& node = model_.nodes[index];
       const Eigen::Matrix4d matrix = next.parent * matrix_of(node);
       if (node.mesh >= 0) add_mesh(node, matrix);
@@ -158,7 +161,8 @@ class GltfReader {
   }
 
   void add_mesh(const tinygltf::Node& node, const Eigen::Matrix4d& matrix) {
-    if (static_cast<std::size_t>(node.mesh) >= model_.meshes.size()) fail(source_.name, "there is no such mesh");
+    if (static_cast<std::size_t>(node.mesh) >= model_.meshes.size())
+      fail(source_.name, "mesh " + std::to_string(node.mesh) + " is not in the file; export it again");
     const tinygltf::Mesh& mesh = model_.meshes[static_cast<std::size_t>(node.mesh)];
     const auto first_vertex = static_cast<Index>(points_.size() / 3);
     add_group("o", node.name.empty() ? mesh.name : node.name);
@@ -169,9 +173,14 @@ class GltfReader {
     require_index_count(source_.name, points_.size() / 3 + static_cast<std::size_t>(welded.rows()), "vertices");
     for (Eigen::Index i = 0; i < welded.rows(); ++i) {
       const Eigen::Vector4d moved = matrix * welded.row(i).transpose().homogeneous();
-      if (!moved.allFinite()) throw Error(ErrorCode::NotFinite, source_.name + ": a vertex has no finite place");
+      if (!moved.allFinite()) fail_at(first_vertex + static_cast<Index>(i));
       points_.insert(points_.end(), moved.data(), moved.data() + 3);
     }
+  }
+
+  [[noreturn]] void fail_at(Index vertex) const {
+    throw Error(ErrorCode::NotFinite, source_.name + ": vertex " + std::to_string(vertex) +
+                                          " has no finite place; export the mesh again without it");
   }
 
   void add_group(const std::string& keyword, std::string name) {
@@ -227,8 +236,7 @@ class GltfReader {
     for (Eigen::Index i = 0; i < places.rows(); ++i) {
       Index& vertex = vertices[static_cast<std::size_t>(i)];
       if (vertex == kUnused) continue;
-      if (!places.row(i).allFinite())
-        throw Error(ErrorCode::NotFinite, source_.name + ": a vertex has no finite place");
+      if (!places.row(i).allFinite()) fail_at(static_cast<Index>(i));
       vertex = first_vertex + welder.add(places.row(i).data());
     }
     return vertices;
