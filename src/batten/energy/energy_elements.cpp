@@ -1,9 +1,11 @@
 #include "batten/energy/energy_elements.h"
 
 #include <numeric>
+#include <string>
 #include <string_view>
 #include <unordered_map>
 
+#include "batten/error.h"
 #include "batten/parallel/parallel.h"
 #include "batten/patch/face_types.h"
 
@@ -19,10 +21,26 @@ struct LayoutHash {
   }
 };
 
+/// Matrices of n^2 numbers are summed in O(n^3), which would take minutes beyond.
+const RingTypes& small_rings(const SurfacePatches& patches) {
+  constexpr Index kMostPoints = 512;
+  const FaceTypes& faces = patches.face_types();
+  for (Index f = 0; f < patches.base().face_count(); ++f) {
+    if (faces.type(f) == RingTypes::kPatch) continue;
+    const Index points = faces.ring_types().step(faces.type(f)).ring_size;
+    if (points <= kMostPoints) continue;
+    throw Error(ErrorCode::TooLarge, "face " + std::to_string(patches.control_face(f)) + " depends on " +
+                                         std::to_string(points) + " points, and energies take at most " +
+                                         std::to_string(kMostPoints) +
+                                         "; cut the polygon, or the fan around the vertex, with so many sides");
+  }
+  return faces.ring_types();
+}
+
 }  // namespace
 
 EnergyElements::EnergyElements(const SurfacePatches& patches, std::optional<int> cutoff)
-    : energies_(ring_energies(patches.quads(), patches.face_types().ring_types(), cutoff)) {
+    : energies_(ring_energies(patches.quads(), small_rings(patches), cutoff)) {
   const Buffer<std::uint8_t>& holes = patches.holes();
   for (Index f = 0; f < patches.base().face_count(); ++f) {
     if (!holes.empty() && holes[f] != 0) continue;

@@ -14,7 +14,8 @@ namespace batten {
 /// next to a vertex of valence n some 2 n points.
 class EnergyElements {
  public:
-  /// cutoff as in ring_energies(). Throws Error(BadArgument) for the Butterflies.
+  /// cutoff as in ring_energies(). Throws Error(BadArgument) for the Butterflies, Error(TooLarge) where a face
+  /// depends on more than 512 points.
   EnergyElements(const SurfacePatches& patches, std::optional<int> cutoff);
 
   /// An element that depends on a vertex, and the vertex's place among the element's.
