@@ -1,4 +1,4 @@
-#include "batten/adaptive/adaptive.h"
+#include "batten/adaptive/adaptive_surface_mesh.h"
 
 #include <fmt/format.h>
 
@@ -53,8 +53,8 @@ int run_adaptive(const SubdivideArguments& arguments) {
   const Topology topology = job.connect();
   const double diagonal = bounding_diagonal(mesh.points);
   const AdaptiveOptions options = options_of(arguments, scheme, diagonal);
-  const AdaptiveMesh result = tessellate_adaptively(topology, scheme, mesh.points, options,
-                                                    ProgressBar("tessellating", common.quiet).callback());
+  const AdaptiveMesh result =
+      adaptive_surface_mesh(topology, scheme, mesh, options, ProgressBar("tessellating", common.quiet).callback());
   job.stages.finish("tessellate");
   // Butterfly surfaces have no closed form to measure by.
   std::optional<double> chord;

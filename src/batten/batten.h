@@ -1,6 +1,7 @@
 /// \file Everything of the library but pictures (render/render.h).
 #pragma once
 #include "batten/adaptive/adaptive.h"
+#include "batten/adaptive/adaptive_surface_mesh.h"
 #include "batten/energy/energy_kind.h"
 #include "batten/energy/surface_energy.h"
 #include "batten/error.h"

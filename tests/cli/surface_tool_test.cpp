@@ -38,6 +38,30 @@ const std::string kSharpCube =
     "t crease 2/1/0 4 5 10\nt crease 2/1/0 5 6 10\nt crease 2/1/0 6 7 10\nt crease 2/1/0 7 4 10\n"
     "t crease 2/1/0 0 4 10\nt crease 2/1/0 1 5 10\nt crease 2/1/0 2 6 10\nt crease 2/1/0 3 7 10\n";
 
+TEST_F(Tool, AdaptiveMeshesKeepTextureCoordinatesAndMaterials) {
+  write("square.obj",
+        "mtllib paint.mtl\nv 0 0 0\nv 1 0 0\nv 2 0 1\nv 0 1 0\nv 1 1 0\nv 2 1 1\n"
+        "vt 0 0\nvt 0.5 0\nvt 1 0\nvt 0 1\nvt 0.5 1\nvt 1 1\nvt 0.25 0.25\n"
+        "usemtl red\nf 1/1 2/2 5/5 4/4\nusemtl blue\nf 2/7 3/3 6/6 5/5\n");
+  const Outcome result = run("subdivide square.obj --chord 1% -o fine.obj");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  const Mesh fine = read_mesh(path("fine.obj"));
+  ASSERT_EQ(fine.groups.size(), 2U);
+  EXPECT_EQ(fine.groups[1].name, "blue");
+  EXPECT_EQ(fine.material_libraries, std::vector<std::string>{"paint.mtl"});
+  const auto uv = std::find_if(fine.attributes.begin(), fine.attributes.end(),
+                               [](const Attribute& a) { return a.name == "uv" && a.per_corner(); });
+  ASSERT_NE(uv, fine.attributes.end());
+  // Vertex 1 stands on the seam: its red faces have its first texture coordinates, its blue ones the other.
+  for (std::size_t c = 0; c < fine.face_vertices.size(); ++c) {
+    if (fine.face_vertices[c] != 1) continue;
+    const bool red = static_cast<Index>(c) < fine.face_offsets[fine.groups[1].first_face];
+    const Eigen::RowVector2d expected = red ? Eigen::RowVector2d(0.5, 0.0) : Eigen::RowVector2d(0.25, 0.25);
+    EXPECT_EQ(Eigen::RowVector2d(uv->values.row(uv->corner_rows[c])), expected);
+  }
+}
+
 TEST_F(Tool, ModifiedButterflyKeepsTheVerticesAndTellsNormals) {
   write("octahedron.obj",
         "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\nf 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\n"

@@ -38,6 +38,20 @@ LatticePlace coarsest(LatticePlace place) {
   return place;
 }
 
+/// Throws Error(BadArgument) for a place that refinement does not reach.
+LatticePlace lattice_place(const Topology& base, const SurfacePlace& place) {
+  constexpr int kMostLevels = ButterflyPoints::kMostLevels;
+  constexpr double kSteps = Index{1} << kMostLevels;
+  const double i = kSteps * place.u;
+  const double j = kSteps * place.v;
+  const bool inside = place.face >= 0 && place.face < base.face_count() && i >= 0 && j >= 0 && i + j <= kSteps;
+  if (!inside || i != std::floor(i) || j != std::floor(j)) {
+    throw Error(ErrorCode::BadArgument, "a place of a Butterfly surface is a face of the mesh and a point that " +
+                                            std::to_string(kMostLevels) + " levels of refinement reach in it");
+  }
+  return {kMostLevels, place.face, static_cast<Index>(i), static_cast<Index>(j)};
+}
+
 }  // namespace
 
 struct ButterflyPoints::Parts {
@@ -102,21 +116,17 @@ ButterflyPoints::~ButterflyPoints() = default;
 
 void ButterflyPoints::evaluate(std::span<const SurfacePlace> places, Eigen::Ref<Points> points,
                                Eigen::Ref<Points> normals) {
-  constexpr double kSteps = Index{1} << kMostLevels;
   for (std::size_t p = 0; p < places.size(); ++p) {
-    const SurfacePlace& place = places[p];
-    const double i = kSteps * place.u;
-    const double j = kSteps * place.v;
-    const bool inside =
-        place.face >= 0 && place.face < parts_->base.face_count() && i >= 0 && j >= 0 && i + j <= kSteps;
-    if (!inside || i != std::floor(i) || j != std::floor(j)) {
-      throw Error(ErrorCode::BadArgument, "a place of a Butterfly surface is a face of the mesh and a point that " +
-                                              std::to_string(kMostLevels) + " levels of refinement reach in it");
-    }
-    const LatticePlace at{kMostLevels, place.face, static_cast<Index>(i), static_cast<Index>(j)};
+    const LatticePlace at = lattice_place(parts_->base, places[p]);
     const auto row = static_cast<Eigen::Index>(p);
     points.row(row) = parts_->point(at).transpose();
     normals.row(row) = parts_->normal(at).transpose();
+  }
+}
+
+void ButterflyPoints::evaluate(std::span<const SurfacePlace> places, Eigen::Ref<Points> points) {
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    points.row(static_cast<Eigen::Index>(p)) = parts_->point(lattice_place(parts_->base, places[p])).transpose();
   }
 }
 

@@ -24,6 +24,8 @@ class ButterflyPoints {
 
   /// u and v: multiples of 2^-kMostLevels. normals: unit, on the side of the place's face; zero where there is none.
   void evaluate(std::span<const SurfacePlace> places, Eigen::Ref<Points> points, Eigen::Ref<Points> normals);
+  /// The points without their normals.
+  void evaluate(std::span<const SurfacePlace> places, Eigen::Ref<Points> points);
 
  private:
   struct Parts;
