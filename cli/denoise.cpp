@@ -103,7 +103,8 @@ int run_denoise(const DenoiseArguments& arguments) {
   const DenoiseResult result =
       denoise(topology, scheme, mesh.points, options, ProgressBar("smoothing", common.quiet).callback());
   job.stages.finish("smooth");
-  const Mesh smooth = with_points(mesh, result.points);
+  Mesh smooth = with_points(mesh, result.points);
+  smooth.creases.insert(smooth.creases.end(), result.features.begin(), result.features.end());
   job.write(smooth);
   if (!arguments.picture.path.empty()) {
     draw_moved(mesh, smooth, arguments.picture, "denoised", common.quiet);

@@ -116,7 +116,7 @@ void add_denoise(CLI::App& app, DenoiseArguments& arguments, int& status) {
             options.features = true;
             options.feature_options.degrees = degrees;
           },
-          "find edges that are sharper than this, and smooth along them only, as along creases")
+          "find edges that are sharper than this, smooth along them only, and write them as creases")
       ->check(number_in(1.0, 179.0))
       ->option_text("DEGREES");
   add_picture(verb, arguments.picture);

@@ -1,4 +1,5 @@
 /// The tool's verbs of the mesh series.
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -22,6 +23,22 @@ TEST_F(Tool, DenoisesAndSaysWhatItFound) {
   const double moved = (after.points - before.points).norm() / std::sqrt(before.vertex_count());
   EXPECT_NEAR(report["moved_rms"].get<double>(), moved, 1e-12);
   EXPECT_EQ(after.face_vertices, before.face_vertices);
+}
+
+TEST_F(Tool, DenoiseTagsTheSharpEdgesItFound) {
+  const std::string command = "denoise " + kModels + "bracket-scan.obj --auto --features 40 ";
+  ASSERT_EQ(run(command + "-o clean.obj --report r.json").status, 0);
+  const auto found = nlohmann::json::parse(text_of(path("r.json")))["features"];
+  const std::vector<Crease> creases = read_mesh(path("clean.obj")).creases;
+  ASSERT_EQ(creases.size(), found.size());
+  for (std::size_t i = 0; i < creases.size(); ++i) {
+    EXPECT_EQ(std::minmax(creases[i].a, creases[i].b), std::minmax(found[i][0].get<Index>(), found[i][1].get<Index>()));
+    EXPECT_GE(creases[i].sharpness, kInfiniteSharpness);
+  }
+  ASSERT_EQ(run(command + "-o clean.usda").status, 0);
+  EXPECT_NE(text_of(path("clean.usda")).find("creaseIndices"), std::string::npos);
+  const Outcome scan = run(command + "-o clean.ply");
+  EXPECT_NE(scan.err.find("lost: creases"), std::string::npos) << scan.err;
 }
 
 TEST_F(Tool, DenoisesByAStrengthInEdgeLengths) {
