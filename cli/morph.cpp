@@ -137,20 +137,6 @@ void draw_frames(const Run& run, const std::vector<Frame>& frames) {
   draw_row(subjects, run.arguments.picture, run.arguments.common.quiet);
 }
 
-void check_usage(const Run& run) {
-  if (run.animated && (run.arguments.rho || run.arguments.at)) {
-    throw Error(ErrorCode::BadArgument,
-                std::string(run.arguments.rho ? "--rho" : "--at") +
-                    " writes shapes, not an animation: name an .obj or .ply instead of the .glb");
-  }
-  if (run.arguments.rho && run.arguments.at) {
-    throw Error(ErrorCode::BadArgument, "--rho gives a sequence of frames; --at belongs to the morph without it");
-  }
-  if (run.arguments.common.output == "-" && !run.animated && !run.arguments.at) {
-    throw Error(ErrorCode::BadArgument, "standard output takes one file: ask for one shape by --at, or for a .glb");
-  }
-}
-
 std::string what_of(const MorphArguments& arguments) {
   if (arguments.rho) {
     return fmt::format("Lai and Cheng's sequence, rho {:g}, m {}{}", *arguments.rho, arguments.options.m,
@@ -187,7 +173,6 @@ int run_morph(const MorphArguments& arguments) {
   nlohmann::ordered_json report{{"target", arguments.target}};
   Run run{arguments, mesh, topology, scheme_for(common, mesh), is_glb(common), arguments.frames};
   if (run.frames < 0) run.frames = run.animated ? 24 : kMorphFrames;
-  check_usage(run);
   table.add("mesh", mesh_text(topology));
   table.add("scheme", scheme_text(run.scheme));
   const Values end = target_points(run, target, table, report);

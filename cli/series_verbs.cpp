@@ -68,6 +68,21 @@ void add_noise(CLI::App& verb, TextureArguments& arguments) {
       ->option_text("RRGGBB,RRGGBB,...");
 }
 
+/// Refuses one shape, or the paper's sequence, where the output is an animation or the other is asked for, and several
+/// files on standard output.
+void check_frames(const MorphArguments& arguments, bool animated) {
+  if (animated && (arguments.rho || arguments.at)) {
+    throw UsageError(std::string(arguments.rho ? "--rho" : "--at") +
+                     " writes shapes, not an animation: name an .obj or .ply instead of the .glb");
+  }
+  if (arguments.rho && arguments.at) {
+    throw UsageError("--rho gives a sequence of frames; --at belongs to the morph without it");
+  }
+  if (is_standard_output(arguments.common.output) && !animated && !arguments.at) {
+    throw UsageError("standard output takes one file: ask for one shape by --at, or for a .glb");
+  }
+}
+
 /// Refuses what the kind of output leaves without an effect, and frames that would replace an input.
 void check_morph(const CLI::App& verb, const MorphArguments& arguments) {
   const CommonArguments& common = arguments.common;
@@ -79,6 +94,7 @@ void check_morph(const CLI::App& verb, const MorphArguments& arguments) {
   }
   require_with(verb, {"--no-align"}, {"--rho"});
   if (arguments.rho) require_alone(verb, "--rho", {"--order", "--stages"});
+  check_frames(arguments, animated);
   if (common.output.empty() || animated || arguments.at) return;
   check_numbered_files(verb, common.output, arguments.frames < 0 ? kMorphFrames : arguments.frames);
 }

@@ -72,6 +72,10 @@ TEST_F(Usage, OptionsWithoutAnEffectAreRefused) {
   expect_refused("morph x.obj y.obj -o a.ply --rho 0.5 --stages 2", "--stages does nothing with --rho");
   expect_refused("morph x.obj y.obj -o a.ply --no-align", "--no-align does nothing without --rho");
   expect_refused("morph x.obj y.obj -o a.ply --seconds 3", "--seconds does nothing without a .glb");
+  expect_refused("morph x.obj y.obj -o a.glb --at 0.5", "--at writes shapes, not an animation");
+  expect_refused("morph x.obj y.obj -o a.glb --rho 0.5", "--rho writes shapes, not an animation");
+  expect_refused("morph x.obj y.obj -o a.ply --rho 0.5 --at 0.5", "--at belongs to the morph without it");
+  expect_refused("morph x.obj y.obj -o - --output-format ply", "standard output takes one file");
 }
 
 TEST_F(Usage, OptionsOfAnotherSchemeAreRefused) {
