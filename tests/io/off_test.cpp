@@ -32,8 +32,15 @@ TEST(OffReader, ReadsColoursAndNormals) {
   EXPECT_EQ(off("COFF\n1 0 0\n1 2 3 0.25 0 1 1\n").attributes[0].values(0, 0), 0.25);
 }
 
-TEST(OffReader, TheColourOfAFaceIsSkipped) {
-  EXPECT_EQ(off("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 0.5 0.5 0.5\n").face_size(0), 3);
+TEST(OffReader, TheColoursOfFacesAreSkippedAndTold) {
+  const std::string vertices = "OFF\n3 3 0\n0 0 0\n1 0 0\n0 1 0\n";
+  const std::string text = vertices + "3 0 1 2 0.5 0.5 0.5\n3 0 1 2 # plain\n3 0 1 2 7\n";
+  EXPECT_EQ(off(text).face_vertices, (Buffer<Index>{0, 1, 2, 0, 1, 2, 0, 1, 2}));
+  for (const std::size_t chunk_bytes : {std::size_t{1}, io::kChunkBytes}) {
+    EXPECT_EQ(notes_of(io::read_off, text, chunk_bytes),
+              std::vector<std::string>{"test: colours of faces are skipped: 2"});
+  }
+  EXPECT_TRUE(notes_of(io::read_off, vertices + "3 0 1 2\n3 0 1 2 # red\n3 0 1 2\n").empty());
 }
 
 TEST(OffReader, ErrorsNameTheLine) {

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cstdint>
+#include <numeric>
 
 #include "batten/io/chunks.h"
 #include "batten/io/faces.h"
@@ -82,8 +84,8 @@ std::vector<Attribute> find_attributes(const OffHeader& header) {
   return attributes;
 }
 
-/// Reads the size and the vertices, and skips a colour.
-void read_face(Scanner& scanner, Index vertex_count, FaceList& faces) {
+/// Reads the size and the vertices, and skips a colour. Returns true if there is one.
+bool read_face(Scanner& scanner, Index vertex_count, FaceList& faces) {
   const std::int64_t size = scanner.integer("number of corners");
   if (size < 3)
     scanner.fail(ErrorCode::BadFile, "a face needs 3 corners or more, this one has " + std::to_string(size));
@@ -96,7 +98,9 @@ void read_face(Scanner& scanner, Index vertex_count, FaceList& faces) {
     faces.vertices.push_back(static_cast<Index>(vertex));
   }
   faces.sizes.push_back(static_cast<Index>(size));
+  const bool colored = scanner.next_token();
   scanner.skip_tokens();
+  return colored;
 }
 
 /// Colours range from 0 to 1 or from 0 to 255; the largest number decides which.
@@ -119,11 +123,12 @@ Mesh read_rows(const Source& source, const OffHeader& header) {
   mesh.attributes = find_attributes(header);
   for (Attribute& attribute : mesh.attributes) attribute.values.resize(header.vertex_count, attribute.values.cols());
   std::vector<FaceList> faces(rows.chunks.size());
+  std::vector<std::int64_t> colored(rows.chunks.size(), 0);
   for_each_row(source, rows, [&](Scanner& scanner, std::ptrdiff_t row, std::size_t chunk) {
     if (row >= header.vertex_count + header.face_count) {
       scanner.skip_tokens();
     } else if (row >= header.vertex_count) {
-      read_face(scanner, mesh.vertex_count(), faces[chunk]);
+      colored[chunk] += read_face(scanner, mesh.vertex_count(), faces[chunk]) ? 1 : 0;
     } else {
       const char* const names[] = {"x coordinate", "y coordinate", "z coordinate"};
       for (int k = 0; k < 3; ++k) mesh.points(row, k) = scanner.coordinate(names[k]);
@@ -133,6 +138,8 @@ Mesh read_rows(const Source& source, const OffHeader& header) {
     }
   });
   join_faces(source.name, faces, mesh);
+  const std::int64_t all_colored = std::accumulate(colored.begin(), colored.end(), std::int64_t{0});
+  if (all_colored > 0) note(source, "colours of faces are skipped: " + std::to_string(all_colored));
   std::for_each(mesh.attributes.begin(), mesh.attributes.end(), scale_colors);
   return mesh;
 }
