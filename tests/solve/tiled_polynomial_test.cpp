@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
 #include "support/values.h"
@@ -111,6 +113,57 @@ TEST(TiledPolynomial, ThreadsDoNotChangeABit) {
   const ThreadLimit limit(1);
   TiledPolynomial(rows).apply({1.0, 0.0, -1.0}, 9, start, one);
   EXPECT_TRUE((all.array() == one.array()).all());
+}
+
+/// G of a torus whose every entry differs; some rows have no entries, some only that on the diagonal.
+RemainderRows own_rows(Index n) {
+  RemainderRows rows;
+  rows.offsets.push_back(0);
+  for (Index row = 0; row < n * n; ++row) {
+    const Index i = row / n;
+    const Index j = row % n;
+    if (row % 41 != 0) {
+      const Index neighbours[] = {(i + 1) % n * n + j, (i + n - 1) % n * n + j, i * n + (j + 1) % n,
+                                  i * n + (j + n - 1) % n};
+      for (int k = 0; k < 4 && row % 43 != 0; ++k) {
+        rows.columns.push_back(neighbours[k]);
+        rows.weights.push_back(-0.1 - 0.02 * std::sin(row + 0.3 * k));
+      }
+      rows.columns.push_back(row);
+      rows.weights.push_back(0.4 + 0.1 * std::cos(row));
+    }
+    rows.offsets.push_back(rows.columns.size());
+  }
+  return rows;
+}
+
+/// The oracle is the definition, with whole sweeps.
+TEST(TiledPolynomial, TakesRowsWithWeightsOfTheirOwn) {
+  const RemainderRows rows = own_rows(130);
+  const TiledPolynomial tiles(rows);
+  ASSERT_TRUE(tiles.fits());
+  for (const Index columns : {1, 3, 6}) {
+    const Values start = random_values(rows.size(), columns);
+    Values expected = start;
+    const std::vector<double> coefficients{0.3, -1.0, 0.0, 2.0};
+    for (int pass = 0; pass < 5; ++pass) {
+      Values power = expected;
+      Values next;
+      expected *= coefficients[0];
+      for (std::size_t i = 1; i < coefficients.size(); ++i) {
+        rows.apply(power, next);
+        power = next;
+        expected += coefficients[i] * power;
+      }
+    }
+    Values result(start.rows(), start.cols());
+    tiles.apply(coefficients, 5, start, result);
+    EXPECT_LT((result - expected).cwiseAbs().maxCoeff(), 1e-14 * expected.cwiseAbs().maxCoeff()) << columns;
+    Values again(start.rows(), start.cols());
+    const ThreadLimit limit(1);
+    TiledPolynomial(rows).apply(coefficients, 5, start, again);
+    EXPECT_TRUE((again.array() == result.array()).all());
+  }
 }
 
 TEST(TiledPolynomial, RefusesWhatDoesNotFit) {

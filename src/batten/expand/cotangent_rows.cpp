@@ -19,8 +19,9 @@ struct Row {
   std::vector<std::pair<Index, double>> entries;
   double area = 0.0;
 
+  /// Sorts by column and adds up those of the same.
   void sort() {
-    std::stable_sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    sort_stably();
     std::size_t used = 0;
     for (const auto& entry : entries) {
       if (used > 0 && entries[used - 1].first == entry.first) {
@@ -42,6 +43,36 @@ struct Row {
     for (const auto& entry : entries) sum += std::abs(entry.second);
     return sum;
   }
+
+ private:
+  /// std::stable_sort takes memory from the heap, which for the dozen entries of most rows costs more than sorting.
+  void sort_stably() {
+    constexpr std::size_t kFew = 64;
+    if (entries.size() > kFew) {
+      std::stable_sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+      return;
+    }
+    for (std::size_t i = 1; i < entries.size(); ++i) {
+      const std::pair<Index, double> entry = entries[i];
+      std::size_t k = i;
+      for (; k > 0 && entries[k - 1].first > entry.first; --k) entries[k] = entries[k - 1];
+      entries[k] = entry;
+    }
+  }
+};
+
+/// The rows of a block of vertices before they are scaled, diagonals last.
+struct RowBlock {
+  Buffer<Index> columns;
+  Buffer<double> weights;
+  std::size_t first = 0;  ///< among the entries of all blocks
+};
+
+/// What scales a row: nothing on curves, kept and fixed vertices.
+struct RowMeasure {
+  double area = 0.0;
+  double absolute_sum = 0.0;
+  bool scaled = false;
 };
 
 class CotangentBuilder {
@@ -75,56 +106,31 @@ class CotangentBuilder {
     row.sort();
   }
 
-  /// The median over the vertices of (sum_j |C_ij|) / area.
-  double median_ratio(const Progress& progress) const {
-    Buffer<double> ratios(static_cast<std::size_t>(topology_.vertex_count()), -1.0);
-    parallel_for(
-        topology_.vertex_count(),
-        [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-          Row entries;
-          for (auto v = static_cast<Index>(begin); v < end; ++v) {
-            if (!is_smooth(v)) continue;
-            row(v, entries);
-            if (entries.area > 0.0) ratios[v] = entries.absolute_sum() / entries.area;
-          }
-        },
-        kDefaultBlock, progress);
-    ratios.erase(std::remove_if(ratios.begin(), ratios.end(), [](double ratio) { return !(ratio >= 0.0); }),
-                 ratios.end());
-    if (ratios.empty()) return 0.0;
-    const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-    std::nth_element(ratios.begin(), middle, ratios.end());
-    return *middle;
-  }
-
-  /// Appends row v of E - A and returns its scale.
-  double append(Index v, double ratio, Row& scratch, Buffer<Index>& columns, Buffer<double>& weights) const {
-    if (is_kept(v)) return 1.0;
-    if (!is_smooth(v)) {
-      double diagonal = 1.0;
-      matrix_.visit_row(v, [&](Index column, double weight) {
-        if (column == v) {
-          diagonal -= weight;
-        } else {
-          columns.push_back(column);
-          weights.push_back(-weight);
-        }
-      });
-      columns.push_back(v);
-      weights.push_back(diagonal);
-      return 1.0;
+  /// Appends row v of E - A, or of C where that is still to be scaled.
+  RowMeasure append(Index v, Row& scratch, RowBlock& block) const {
+    if (is_kept(v)) return {};
+    if (is_smooth(v)) {
+      row(v, scratch);
+      for (const auto& entry : scratch.entries) {
+        block.columns.push_back(entry.first);
+        block.weights.push_back(entry.second);
+      }
+      block.columns.push_back(v);
+      block.weights.push_back(-scratch.diagonal());
+      return {scratch.area, scratch.absolute_sum(), true};
     }
-    row(v, scratch);
-    const double scale = std::max(ratio * scratch.area, scratch.absolute_sum());
-    if (!(scale > 0.0)) return 1.0;
-    const double factor = kShare / scale;
-    for (const auto& entry : scratch.entries) {
-      columns.push_back(entry.first);
-      weights.push_back(factor * entry.second);
-    }
-    columns.push_back(v);
-    weights.push_back(-factor * scratch.diagonal());
-    return scale;
+    double diagonal = 1.0;
+    matrix_.visit_row(v, [&](Index column, double weight) {
+      if (column == v) {
+        diagonal -= weight;
+      } else {
+        block.columns.push_back(column);
+        block.weights.push_back(-weight);
+      }
+    });
+    block.columns.push_back(v);
+    block.weights.push_back(diagonal);
+    return {};
   }
 
  private:
@@ -138,72 +144,86 @@ class CotangentBuilder {
   FaceTriangles triangles_;
 };
 
+/// The median over the scaled rows of (sum_j |C_ij|) / area.
+double median_ratio(const Buffer<RowMeasure>& measures) {
+  Buffer<double> ratios;
+  ratios.reserve(measures.size());
+  for (const RowMeasure& measure : measures) {
+    if (measure.scaled && measure.area > 0.0) ratios.push_back(measure.absolute_sum / measure.area);
+  }
+  if (ratios.empty()) return 0.0;
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  return *middle;
+}
+
+/// Where each block's entries stand among those of all.
+std::size_t place_blocks(std::vector<RowBlock>& blocks) {
+  std::size_t total = 0;
+  for (RowBlock& block : blocks) {
+    block.first = total;
+    total += block.columns.size();
+  }
+  return total;
+}
+
+/// Scales the rows [begin, end), moves them to their place and frees the block.
+void finish_block(const Buffer<RowMeasure>& measures, double ratio, std::ptrdiff_t begin, std::ptrdiff_t end,
+                  RowBlock& block, CotangentRows& rows) {
+  Buffer<std::size_t>& offsets = rows.remainder.offsets;
+  const std::size_t count = block.columns.size();
+  for (std::ptrdiff_t v = begin; v < end; ++v) {
+    rows.scales[v] = 1.0;
+    const RowMeasure& measure = measures[v];
+    const std::size_t last = v + 1 < end ? offsets[v + 1] : count;
+    if (measure.scaled) {
+      const double scale = std::max(ratio * measure.area, measure.absolute_sum);
+      if (scale > 0.0) rows.scales[v] = scale;
+      const double factor = scale > 0.0 ? kShare / scale : 0.0;
+      for (std::size_t k = offsets[v]; k < last; ++k) block.weights[k] *= factor;
+    }
+  }
+  for (std::ptrdiff_t v = begin; v < end; ++v) offsets[v] += block.first;
+  std::copy_n(block.columns.begin(), count, rows.remainder.columns.begin() + static_cast<std::ptrdiff_t>(block.first));
+  std::copy_n(block.weights.begin(), count, rows.remainder.weights.begin() + static_cast<std::ptrdiff_t>(block.first));
+  block = {};
+}
+
 }  // namespace
 
-RemainderRows cotangent_rows(const LimitMatrix& matrix, ConstValuesRef points, const Buffer<std::uint8_t>& kept,
+CotangentRows cotangent_rows(const LimitMatrix& matrix, ConstValuesRef points, const Buffer<std::uint8_t>& kept,
                              const Progress& progress) {
   require_vertex_rows(matrix.topology(), points);
   if (points.cols() != 3) throw Error(ErrorCode::BadShape, "cotangents need points of three columns");
   if (!points.allFinite()) throw Error(ErrorCode::NotFinite, "the points hold a number that is not finite");
   const Index count = matrix.topology().vertex_count();
   const CotangentBuilder builder(matrix, points, kept);
-  const double ratio = builder.median_ratio(progress_within(progress, 0.0, 0.5));
-  struct Block {
-    Buffer<Index> columns;
-    Buffer<double> weights;
-    std::size_t first = 0;
-  };
-  std::vector<Block> blocks(static_cast<std::size_t>(block_count(count)));
-  RemainderRows rows;
-  rows.offsets.resize(static_cast<std::size_t>(count) + 1);
+  std::vector<RowBlock> blocks(static_cast<std::size_t>(block_count(count)));
+  Buffer<RowMeasure> measures(static_cast<std::size_t>(count));
+  CotangentRows rows;
+  RemainderRows& remainder = rows.remainder;
+  remainder.offsets.resize(static_cast<std::size_t>(count) + 1);
   rows.scales.resize(static_cast<std::size_t>(count));
   parallel_for(
       count,
       [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
         Row scratch;
-        Block& block = blocks[begin / kDefaultBlock];
+        RowBlock& block = blocks[begin / kDefaultBlock];
         for (auto v = static_cast<Index>(begin); v < end; ++v) {
-          rows.offsets[v] = block.columns.size();
-          rows.scales[v] = builder.append(v, ratio, scratch, block.columns, block.weights);
-        }
-      },
-      kDefaultBlock, progress_within(progress, 0.5, 1.0));
-  std::size_t total = 0;
-  for (Block& block : blocks) {
-    block.first = total;
-    total += block.columns.size();
-  }
-  rows.columns.resize(total);
-  rows.weights.resize(total);
-  rows.offsets[count] = total;
-  parallel_for(count, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    Block& block = blocks[begin / kDefaultBlock];
-    for (std::ptrdiff_t v = begin; v < end; ++v) rows.offsets[v] += block.first;
-    std::copy(block.columns.begin(), block.columns.end(),
-              rows.columns.begin() + static_cast<std::ptrdiff_t>(block.first));
-    std::copy(block.weights.begin(), block.weights.end(),
-              rows.weights.begin() + static_cast<std::ptrdiff_t>(block.first));
-    block = {};
-  });
-  return rows;
-}
-
-void RemainderRows::apply(const Values& x, Values& out, const Progress& progress) const {
-  out.resize(x.rows(), x.cols());
-  const Eigen::Index columns_of_x = x.cols();
-  parallel_for(
-      x.rows(),
-      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-        for (std::ptrdiff_t v = begin; v < end; ++v) {
-          double* target = out.data() + v * columns_of_x;
-          for (Eigen::Index c = 0; c < columns_of_x; ++c) target[c] = 0.0;
-          for (std::size_t k = offsets[v]; k < offsets[v + 1]; ++k) {
-            const double* from = x.data() + columns[k] * columns_of_x;
-            for (Eigen::Index c = 0; c < columns_of_x; ++c) target[c] += weights[k] * from[c];
-          }
+          remainder.offsets[v] = block.columns.size();
+          measures[v] = builder.append(v, scratch, block);
         }
       },
       kDefaultBlock, progress);
+  const double ratio = median_ratio(measures);
+  const std::size_t total = place_blocks(blocks);
+  remainder.columns.resize(total);
+  remainder.weights.resize(total);
+  remainder.offsets[count] = total;
+  parallel_for(count, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    finish_block(measures, ratio, begin, end, blocks[begin / kDefaultBlock], rows);
+  });
+  return rows;
 }
 
 }  // namespace batten

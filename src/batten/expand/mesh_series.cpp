@@ -102,7 +102,7 @@ struct MeshSeries::Parts {
   Buffer<std::uint8_t> kept;
   LimitMatrix matrix;
   std::unique_ptr<TiledPolynomial> tiles;
-  std::unique_ptr<RemainderRows> cotangents;
+  std::unique_ptr<CotangentRows> cotangents;  ///< without the rows once they are in tiles
 
   Parts(const Topology& topology_in, const Scheme& scheme, const SeriesOptions& options, const Progress& progress)
       : topology(topology_in),
@@ -113,16 +113,27 @@ struct MeshSeries::Parts {
       throw Error(ErrorCode::BadShape, "kept must be empty or have one entry a vertex");
     const Progress rest = progress_within(progress, 0.2, 1.0);
     if (options.matrix == SeriesMatrix::Cotangent) {
-      cotangents = std::make_unique<RemainderRows>(cotangent_rows(matrix, options.shape, kept, rest));
-    } else if (matrix.entry_count() <= TiledIteration::kMostEntriesPerRow * topology.vertex_count()) {
-      tiles = std::make_unique<TiledPolynomial>(KeptRows(matrix, kept), rest);
-      if (!tiles->fits() || tiles->overlap() > TiledIteration::kMostOverlap) tiles.reset();
+      cotangents =
+          std::make_unique<CotangentRows>(cotangent_rows(matrix, options.shape, kept, progress_within(rest, 0.0, 0.5)));
+      const RemainderRows& rows = cotangents->remainder;
+      make_tiles(rows, static_cast<double>(rows.columns.size()), progress_within(rest, 0.5, 1.0));
+      if (tiles) cotangents->remainder = {};
+    } else {
+      make_tiles(KeptRows(matrix, kept), matrix.entry_count(), rest);
     }
+  }
+
+  /// Leaves `tiles` empty where they would cost more than they save.
+  template <typename Rows>
+  void make_tiles(const Rows& rows, double entry_count, const Progress& progress) {
+    if (entry_count > TiledIteration::kMostEntriesPerRow * topology.vertex_count()) return;
+    tiles = std::make_unique<TiledPolynomial>(rows, progress);
+    if (!tiles->fits() || tiles->overlap() > TiledIteration::kMostOverlap) tiles.reset();
   }
 
   /// G y, one application over the whole mesh.
   void remainder(const Values& y, Values& next) const {
-    if (cotangents) return cotangents->apply(y, next);
+    if (cotangents) return cotangents->remainder.apply(y, next);
     next.resize(y.rows(), y.cols());
     matrix.apply_unchecked(y, next);
     parallel_for(y.rows(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {

@@ -136,6 +136,33 @@ void run_round(const Tiling& tiling, const Tile& tile, const Round& round, const
 
 }  // namespace
 
+namespace {
+
+/// The columns of G, with the same weights in all rows that have as many: what a tiling is made from.
+class ColumnsOnly : public RowSource {
+ public:
+  explicit ColumnsOnly(const RemainderRows& rows) : RowSource(rows.size()), rows_(rows) {}
+  void row(Index row, RowEntries& entries) const override {
+    const Index count = off_diagonal(row);
+    for (Index k = 0; k < count; ++k) entries.add(rows_.columns[rows_.offsets[row] + k], 1.0);
+    entries.add(row, 1.0);
+  }
+  Index weights_key(Index row) const override { return off_diagonal(row) + 1; }
+  void columns_of(Index row, Index* columns) const override {
+    std::copy_n(rows_.columns.begin() + static_cast<std::ptrdiff_t>(rows_.offsets[row]), off_diagonal(row), columns);
+  }
+
+ private:
+  Index off_diagonal(Index row) const {
+    const std::size_t entries = rows_.offsets[row + 1] - rows_.offsets[row];
+    return entries > 0 ? static_cast<Index>(entries) - 1 : 0;
+  }
+
+  const RemainderRows& rows_;
+};
+
+}  // namespace
+
 struct TiledPolynomial::Parts {
   Tiling tiling;
   mutable Spare<std::array<PolynomialColumns, 2>> spare;
@@ -165,6 +192,11 @@ struct TiledPolynomial::Parts {
 TiledPolynomial::TiledPolynomial(const RowSource& rows, const Progress& progress) : parts_(std::make_unique<Parts>()) {
   const RowTable table(rows, progress_within(progress, 0.0, 0.4));
   parts_->tiling = make_tiling(table, progress_within(progress, 0.4, 1.0));
+}
+
+TiledPolynomial::TiledPolynomial(const RemainderRows& rows, const Progress& progress)
+    : TiledPolynomial(static_cast<const RowSource&>(ColumnsOnly(rows)), progress_within(progress, 0.0, 0.9)) {
+  set_own_weights(rows, parts_->tiling, progress_within(progress, 0.9, 1.0));
 }
 
 TiledPolynomial::~TiledPolynomial() = default;

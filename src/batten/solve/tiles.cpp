@@ -72,6 +72,37 @@ RemainderSegment remainder_for(std::size_t count) {
   return count < std::size(kTable) ? kTable[count] : kTable[0];
 }
 
+/// weights: of the segment's rows, those off the diagonal and then that on it.
+template <int M>
+void own_remainder_segment(const TileSegment& segment, Index run_time_count, const double* weights,
+                           const std::uint16_t* columns, const Double4* x, Double4* remainder) {
+  const Index count = M > 0 ? M : run_time_count;
+  const Index last = segment.first_row + segment.row_count;
+  for (Index i = segment.first_row; i < last; ++i) {
+    Double4 sum{0.0, 0.0, 0.0, 0.0};
+    for (Index k = 0; k < count; ++k) sum += weights[k] * x[columns[k]];
+    remainder[i] = sum + weights[count] * x[i];
+    columns += count;
+    weights += count + 1;
+  }
+}
+
+using OwnRemainderSegment = void (*)(const TileSegment&, Index, const double*, const std::uint16_t*, const Double4*,
+                                     Double4*);
+
+OwnRemainderSegment own_remainder_for(Index count) {
+  static constexpr OwnRemainderSegment kTable[] = {
+      own_remainder_segment<0>, own_remainder_segment<1>, own_remainder_segment<2>,
+      own_remainder_segment<3>, own_remainder_segment<4>, own_remainder_segment<5>,
+      own_remainder_segment<6>, own_remainder_segment<7>, own_remainder_segment<8>};
+  return count < static_cast<Index>(std::size(kTable)) ? kTable[count] : kTable[0];
+}
+
+/// Where the weights of a segment's rows begin: each row before them has one on the diagonal beside its columns.
+std::size_t first_weight(const TileSegment& segment) {
+  return static_cast<std::size_t>(segment.first_column) + static_cast<std::size_t>(segment.first_row);
+}
+
 using StepSegment = void (*)(const TileSegment&, Index, const float*, const std::uint16_t*, float, float, const Float4*,
                              const Float4*, Float4*);
 
@@ -130,6 +161,23 @@ Tiling make_tiling(const RowTable& rows, const Progress& progress) {
   return tiling;
 }
 
+void set_own_weights(const RemainderRows& rows, Tiling& tiling, const Progress& progress) {
+  const auto set = [&](std::ptrdiff_t t) {
+    Tile& tile = tiling.tiles[t];
+    const Index with_rows = tile.ring_end[Tile::kRings - 2];
+    tile.weights.resize(tile.columns.size() + static_cast<std::size_t>(with_rows));
+    double* next = tile.weights.data();
+    for (Index i = 0; i < with_rows; ++i) {
+      const Index row = tiling.order[i < tile.own_count ? tile.first + i : tile.ghosts[i - tile.own_count]];
+      const auto begin = rows.weights.begin() + static_cast<std::ptrdiff_t>(rows.offsets[row]);
+      const auto end = rows.weights.begin() + static_cast<std::ptrdiff_t>(rows.offsets[row + 1]);
+      if (begin == end) *next++ = 0.0;
+      next = std::copy(begin, end, next);
+    }
+  };
+  parallel_for_each(static_cast<std::ptrdiff_t>(tiling.tiles.size()), set, progress);
+}
+
 void tile_step(const Tile& tile, const std::vector<RowPattern>& patterns, int last_ring, float step, float momentum,
                bool step_by_diagonal, const Float4* residual, const Float4* now, Float4* previous) {
   for (Index s = 0; s < tile.segment_end[last_ring]; ++s) {
@@ -158,9 +206,16 @@ void tile_product(const Tile& tile, const std::vector<RowPattern>& patterns, con
 
 void tile_remainder(const Tile& tile, const std::vector<RowPattern>& patterns, int last_ring, const Double4* x,
                     Double4* remainder) {
+  const bool has_own = !tile.weights.empty();
   for (Index s = 0; s < tile.segment_end[last_ring]; ++s) {
     const TileSegment& segment = tile.segments[s];
     const RowPattern& pattern = patterns[segment.pattern];
+    if (has_own) {
+      const auto count = static_cast<Index>(pattern.weights.size());
+      own_remainder_for(count)(segment, count, tile.weights.data() + first_weight(segment),
+                               tile.columns.data() + segment.first_column, x, remainder);
+      continue;
+    }
     remainder_for(pattern.weights.size())(segment, pattern, tile.columns.data() + segment.first_column, x, remainder);
   }
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "batten/double4.h"
+#include "batten/solve/remainder_rows.h"
 #include "batten/solve/row_table.h"
 
 namespace batten {
@@ -32,6 +33,7 @@ struct Tile {
   Buffer<Index> ghosts;
   std::vector<TileSegment> segments;
   Buffer<std::uint16_t> columns;
+  Buffer<double> weights;  ///< of E - A where each row has its own, see set_own_weights; else empty
 };
 
 /// What a thread keeps for its work on tiles, big enough for this one.
@@ -56,6 +58,10 @@ struct Tiling {
 /// infinite and no tiles.
 Tiling make_tiling(const RowTable& rows, const Progress& progress = {});
 
+/// Gives the tiles of G = E - A the weights of its rows: for each row with columns those off the diagonal as they come,
+/// then that on the diagonal. `tiling` is that of rows which have the columns of G in the same order.
+void set_own_weights(const RemainderRows& rows, Tiling& tiling, const Progress& progress = {});
+
 /// One step on the rows of rings 0 .. last_ring:
 /// previous <- now + momentum (now - previous) + step (residual - (now + sum normalised now)).
 /// step_by_diagonal: step is multiplied with the row's diagonal (Richardson).
@@ -65,8 +71,8 @@ void tile_step(const Tile& tile, const std::vector<RowPattern>& patterns, int la
 /// product_i = sum of the row's weights times x, for the tile's own rows; x covers rings 0 and 1.
 void tile_product(const Tile& tile, const std::vector<RowPattern>& patterns, const Double4* x, Double4* product);
 
-/// remainder_i = x_i less the sum of the row's weights times x, on the rows of rings 0 .. last_ring; x covers one ring
-/// more.
+/// remainder_i = x_i less the sum of the row's weights times x, or the sum of the row's own weights of E - A times x,
+/// on the rows of rings 0 .. last_ring; x covers one ring more.
 void tile_remainder(const Tile& tile, const std::vector<RowPattern>& patterns, int last_ring, const Double4* x,
                     Double4* remainder);
 
