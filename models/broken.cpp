@@ -1,5 +1,7 @@
 #include <algorithm>
 
+#include "batten/refine/refinement.h"
+#include "batten/tessellate/surface_mesh.h"
 #include "shapes.h"
 
 namespace batten::models {
@@ -8,12 +10,12 @@ namespace {
 constexpr Index kFacesOfALeg = 70;
 
 /// Separates the legs as a scan or an export may do: each leg has its own copy of the vertices along the seams.
-Mesh legs_apart(const Mesh& whole) {
+Mesh legs_apart(const Mesh& whole, Index faces_of_a_leg) {
   Mesh apart;
   std::vector<Index> copy(static_cast<std::size_t>(whole.vertex_count()), -1);
   std::vector<Index> sources;
   for (Index f = 0; f < whole.face_count(); ++f) {
-    if (f % kFacesOfALeg == 0) std::fill(copy.begin(), copy.end(), -1);
+    if (f % faces_of_a_leg == 0) std::fill(copy.begin(), copy.end(), -1);
     for (Index c = whole.face_offsets[f]; c < whole.face_offsets[f + 1]; ++c) {
       Index& vertex = copy[static_cast<std::size_t>(whole.face_vertices[c])];
       if (vertex < 0) {
@@ -30,8 +32,8 @@ Mesh legs_apart(const Mesh& whole) {
   return apart;
 }
 
-void reverse_leg(Mesh& mesh, Index leg) {
-  for (Index f = leg * kFacesOfALeg; f < (leg + 1) * kFacesOfALeg; ++f)
+void reverse_leg(Mesh& mesh, Index leg, Index faces_of_a_leg) {
+  for (Index f = leg * faces_of_a_leg; f < (leg + 1) * faces_of_a_leg; ++f)
     std::reverse(mesh.face_vertices.begin() + mesh.face_offsets[f],
                  mesh.face_vertices.begin() + mesh.face_offsets[f + 1]);
 }
@@ -60,8 +62,8 @@ void add_fin(Mesh& mesh, Index first, Index count) {
 }  // namespace
 
 Mesh broken_tripod(const Mesh& tripod) {
-  Mesh mesh = legs_apart(tripod);
-  reverse_leg(mesh, 1);
+  Mesh mesh = legs_apart(tripod, kFacesOfALeg);
+  reverse_leg(mesh, 1, kFacesOfALeg);
   add_fin(mesh, 16, 4);
   const Index* quad = &mesh.face_vertices[mesh.face_offsets[30]];
   mesh.add_face({quad[2], quad[3], quad[0], quad[1]});  // repeats a face
@@ -69,6 +71,19 @@ Mesh broken_tripod(const Mesh& tripod) {
   mesh.add_face({quad[0], quad[1], quad[1], quad[0]});  // a face without area
   add_vertex(mesh, {0.0, 0.0, 0.0});                    // a vertex without a face
   return mesh;
+}
+
+Mesh tripod_scan(const Mesh& tripod) {
+  constexpr int kLevels = 2;
+  constexpr Index kFaces = kFacesOfALeg << (2 * kLevels);
+  Mesh whole = surface_mesh(Topology(tripod), choose_scheme(tripod), tripod, kLevels);
+  add_noise(whole.points, 0.012);
+  Mesh scan = legs_apart(whole, kFaces);
+  reverse_leg(scan, 1, kFaces);
+  const Index* quad = &scan.face_vertices[scan.face_offsets[30]];
+  scan.add_face({quad[2], quad[3], quad[0], quad[1]});  // repeats a face
+  add_vertex(scan, {0.0, 0.0, 0.0});                    // a vertex without a face
+  return scan;
 }
 
 }  // namespace batten::models

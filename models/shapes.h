@@ -20,8 +20,14 @@ Mesh bracket();       ///< an angle bracket with a rib and four bolt holes; crea
 Mesh creature();      ///< a body, four legs, a head with a snout and ears, a tail; closed
 Mesh pyramid();       ///< five vertices, six triangles: a square pyramid, taller than wide
 
+/// A cube with one corner pushed in: no Catmull-Clark surface passes through its points.
+Mesh dented_cube();
+
 /// The bracket refined twice, without creases and with noise, like a scan.
 Mesh bracket_scan();
+
+/// Moves every coordinate by approximately normal noise, the same on every machine.
+void add_noise(Points& points, double deviation);
 
 /// The same faces on a sphere, spread as evenly as possible: the target of morphs of closed meshes of genus 0.
 Mesh ball_of(const Mesh& mesh, double radius);
@@ -29,6 +35,10 @@ Mesh ball_of(const Mesh& mesh, double radius);
 /// The tripod with typical faults of an export: legs that share no vertices, one of them inside out; a fin on another;
 /// a repeated face, a face without area, a vertex without a face.
 Mesh broken_tripod(const Mesh& tripod);
+
+/// Points of the tripod's limit surface with noise, like a scan whose three strips share no vertices; one strip is
+/// inside out, a face is repeated, a vertex has no face.
+Mesh tripod_scan(const Mesh& tripod);
 
 struct Model {
   std::string name;
