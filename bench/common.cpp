@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <fstream>
+#include <iomanip>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -13,6 +15,16 @@
 #include "bench/bench.h"
 
 namespace batten::bench {
+
+namespace {
+
+#ifdef __clang__
+constexpr const char* kCompiler = __VERSION__;
+#else
+constexpr const char* kCompiler = "g++ " __VERSION__;
+#endif
+
+}  // namespace
 
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -77,9 +89,11 @@ void write_part(const std::string& page, const std::string& command, const std::
     return "<!-- ./batten bench" + (of.empty() ? "" : " " + of) + " -->\n";
   };
   const std::string head =
-      "# Performance\n\nWritten by `./batten bench` and `./batten bench peers`: medians, the rivals in turn in the "
-      "same "
-      "process.\nRatios count, single timings on a shared machine do not.\n\n";
+      "# Performance\n\n    ./batten bench            # Batten itself, and the papers' iterations\n"
+      "    ./batten bench peers      # beside OpenSubdiv, OpenMesh, CGAL and VTK\n\n"
+      "These two commands write the tables below: medians of repeated runs, the programs in turn in the same process. "
+      "Compare numbers within a table only: a shared machine is faster at one\ntime and slower at another. \"Build\" "
+      "makes an operator from a mesh, once; \"solve\" and \"query\" use it. `1.02e+03` means 1,020.\n\n";
   std::map<std::string, std::string> parts;
   std::ifstream file(page);
   std::string* part = nullptr;
@@ -117,8 +131,10 @@ std::string machine() {
   const ThreadLimit limit(1);
   const double one = median({seconds_of(copy), seconds_of(copy), seconds_of(copy), seconds_of(copy), seconds_of(copy)});
   std::ostringstream text;
-  text << "Machine: " << model << ", " << __VERSION__ << ", copy (read and write counted) "
-       << number(2e-9 * bytes / one) << " GB/s on one thread, " << number(2e-9 * bytes / both) << " on all.\n";
+  const std::time_t now = std::time(nullptr);
+  text << "Measured on " << std::put_time(std::gmtime(&now), "%Y-%m-%d") << ". Machine: " << model << ", " << kCompiler
+       << ", copy (read and write counted) " << number(2e-9 * bytes / one) << " GB/s on one thread, "
+       << number(2e-9 * bytes / both) << " on all.\n";
   return text.str();
 }
 

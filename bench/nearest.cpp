@@ -75,7 +75,7 @@ double processor_seconds(const std::function<void()>& work) {
 
 std::string nearest_section() {
   MarkdownTable table({"surface", "faces", "build, us a face", "other control points, us a face", "a query, us",
-                       "thousand queries a second on two cores", "asked"});
+                       "thousand queries a second on two cores"});
   for (const Surface& subject : surfaces()) {
     const Topology topology(subject.mesh);
     const LimitSurface surface(topology, subject.scheme, subject.mesh.points);
@@ -89,8 +89,7 @@ std::string nearest_section() {
     const double set = processor_seconds([&] { moving.set_control(moved); });
     const double query = processor_seconds([&] { nearest.nearest(queries, found); }) / kQueries;
     table.add({subject.name, std::to_string(topology.face_count()), number(1e6 * build / topology.face_count()),
-               number(1e6 * set / topology.face_count()), number(1e6 * query), number(2e-3 / query),
-               subject.name.starts_with("spot") ? "400" : ""});
+               number(1e6 * set / topology.face_count()), number(1e6 * query), number(2e-3 / query)});
   }
   return "## Nearest point\n\nOf points up to 5 % of the diagonal from the surface, in no order; proved to 1e-10 of "
          "the diagonal. "

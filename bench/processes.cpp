@@ -70,14 +70,13 @@ std::string process_section() {
   const double large_peak = number_after(report, "peak:");
   const double large_vertices = number_after(report, "vertices:");
   std::filesystem::remove_all(folder);
-  MarkdownTable table({"", "seconds", "peak memory", "asked"});
+  MarkdownTable table({"", "seconds", "peak memory"});
   table.add({"`batten interpolate` on a binary PLY of " + std::to_string(static_cast<Index>(vertices)) +
                  " vertices, file to file",
-             number(median(seconds)), number(peak / vertices) + " bytes a vertex", "0.8 s, 500 bytes a vertex"});
+             number(median(seconds)), number(peak / vertices) + " bytes a vertex"});
   table.add({std::to_string(static_cast<Index>(large_vertices)) + " vertices refined and interpolated in one process",
              number(large_seconds),
-             number(large_peak / (1 << 30)) + " GiB (" + number(large_peak / large_vertices) + " bytes a vertex)",
-             "20 M within 12 GiB"});
+             number(large_peak / (1 << 30)) + " GiB (" + number(large_peak / large_vertices) + " bytes a vertex)"});
   return "## Whole processes\n\n" + table.text() + "\n";
 }
 
