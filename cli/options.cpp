@@ -72,7 +72,7 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
 }
 
 void add_repair_flag(CLI::App& verb, CommonArguments& common) {
-  verb.add_flag("--repair", common.repair, "mend the mesh first and say what was changed (see batten repair)");
+  verb.add_flag("--repair", common.repair, "repair the mesh first and list what was changed (see batten repair)");
 }
 
 void add_input(CLI::App& verb, CommonArguments& common, const std::string& name) {

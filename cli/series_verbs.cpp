@@ -176,7 +176,7 @@ void add_sharpen(CLI::App& app, SharpenArguments& arguments, int& status) {
 }
 
 void add_bands(CLI::App& app, BandsArguments& arguments, int& status) {
-  CLI::App& verb = *app.add_subcommand("bands", "split a mesh into bands, from bumps to shape, and mix them anew");
+  CLI::App& verb = *app.add_subcommand("bands", "split a mesh into bands, from bumps to shape, and mix them again");
   add_input(verb, arguments.common);
   add_output(verb, arguments.common);
   add_surface(verb, arguments.common);

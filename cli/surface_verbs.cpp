@@ -142,7 +142,7 @@ void add_distance(CLI::App& app, DistanceArguments& arguments, int& status) {
 
 void add_repair(CLI::App& app, RepairArguments& arguments, int& status) {
   CLI::App& verb =
-      *app.add_subcommand("repair", "mend a mesh that no surface can be made of, and say what was changed");
+      *app.add_subcommand("repair", "repair a mesh that has no surface, and list what was changed");
   add_input(verb, arguments.common);
   add_output(verb, arguments.common);
   CLI::Option* weld =
