@@ -128,7 +128,7 @@ TEST(DocsIndex, ListsEveryPage) {
 
 /// Every source file under a folder, with the marks of comments and the ends of lines taken out, so that a citation is
 /// found where it goes over two lines.
-std::vector<std::pair<std::string, std::string>> sources() {
+std::vector<std::pair<std::string, std::string>> read_sources() {
   std::vector<std::pair<std::string, std::string>> found;
   for (const char* folder : {"src", "cli", "tests", "bench", "models"}) {
     for (const auto& entry : fs::recursive_directory_iterator(kSource / folder)) {
@@ -139,6 +139,11 @@ std::vector<std::pair<std::string, std::string>> sources() {
     }
   }
   return found;
+}
+
+const std::vector<std::pair<std::string, std::string>>& sources() {
+  static const std::vector<std::pair<std::string, std::string>> all = read_sources();
+  return all;
 }
 
 /// "docs/mathematics.md, SECTION" in a comment: the page has that section.

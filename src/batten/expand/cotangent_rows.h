@@ -19,7 +19,7 @@ struct CotangentRows {
 /// by area alone; where triangles are small or thin, the weights stay below the bound. Rows of curves and fixed
 /// vertices are those of the limit matrix. A triangle with an angle below half a degree has the weights of half a
 /// degree; one without area has none, and a vertex with no other triangle is kept.
-/// points: V-by-3, finite. kept: V, or empty. O(H); on quads 230 bytes for each vertex, of which 125 stay. Throws
+/// points: V-by-3, finite. kept: V, or empty. O(H); on quads 250 bytes for each vertex, of which 125 stay. Throws
 /// Error: BadShape, NotFinite, Cancelled.
 CotangentRows cotangent_rows(const LimitMatrix& matrix, ConstValuesRef points, const Buffer<std::uint8_t>& kept,
                              const Progress& progress = {});

@@ -30,7 +30,7 @@ struct SeriesOptions {
 /// themselves only; corners and vertices without a face keep their values. Safe to share
 /// between threads; the result does not depend on their number.
 /// Build: O(H). Memory: on quads 79 bytes a vertex while it is built, of which 33 stay (Limit: those of TiledPolynomial
-/// and two of the limit matrix); 90 (Cotangent). One application of A: O(H).
+/// and two of the limit matrix); 300, of which 140 stay (Cotangent). One application of A: O(H).
 class MeshSeries {
  public:
   /// Where a mesh has smooth vertices of valence 2, the limit matrix would have negative eigenvalues; their components

@@ -18,8 +18,8 @@ class TiledPolynomial {
   /// All rows must be free. Memory, on regular quads: 77 bytes an unknown while it is built, of which 31 stay. Throws
   /// Error(Cancelled).
   explicit TiledPolynomial(const RowSource& rows, const Progress& progress = {});
-  /// G with weights of its own in every row. Build: O(nonzeros). Memory beside the rows, on regular quads: 215 bytes an
-  /// unknown while it is built, of which 150 stay; the rows are not needed any more. Throws Error(Cancelled).
+  /// G with weights of its own in every row. Build: O(nonzeros). Memory beside the rows, on regular quads: 175 bytes an
+  /// unknown while it is built, of which 130 stay; the rows are not needed any more. Throws Error(Cancelled).
   explicit TiledPolynomial(const RemainderRows& rows, const Progress& progress = {});
   ~TiledPolynomial();
   TiledPolynomial(TiledPolynomial&&) noexcept;
