@@ -129,4 +129,29 @@ Scalars sharpness_field(const Topology& topology, const Tessellator& tessellator
   return field;
 }
 
+std::vector<CreaseCurve> crease_curves(const Topology& topology, const Tessellator& tessellator) {
+  const Topology& base = tessellator.base();
+  const bool refined = base.half_edge_count() != topology.half_edge_count();
+  const Index inside = tessellator.steps() - 1;  // points inside each edge of the base
+  std::vector<CreaseCurve> curves;
+  for (Index e = 0; e < topology.edge_count(); ++e) {
+    const double sharpness = crease_sharpness(topology, e);
+    if (sharpness <= 0.0) continue;
+    const Index h = topology.edge_half_edge(e);
+    std::vector<Index> parts{h};
+    // The first refinement makes of half-edge h the quad h, which starts along the first half of h; the second half is
+    // the last side of the next quad.
+    if (refined) parts = {4 * h, 4 * topology.next(h) + 3};
+    CreaseCurve curve{{base.origin(parts.front())}, sharpness};
+    for (const Index part : parts) {
+      const bool forward = base.edge_half_edge(base.edge(part)) == part;
+      const Index first = base.vertex_count() + base.edge(part) * inside;
+      for (Index i = 0; i < inside; ++i) curve.vertices.push_back(first + (forward ? i : inside - 1 - i));
+      curve.vertices.push_back(base.destination(part));
+    }
+    curves.push_back(std::move(curve));
+  }
+  return curves;
+}
+
 }  // namespace batten

@@ -1,5 +1,7 @@
 /// \file Where the vertices of a tessellation lie on the surface, and how sharp it is there.
 #pragma once
+#include <vector>
+
 #include "batten/patch/surface_place.h"
 #include "batten/tessellate/tessellator.h"
 
@@ -13,5 +15,15 @@ Buffer<SurfacePlace> vertex_places(const Tessellator& tessellator);
 /// them, and zero off them from a quarter of a face on, linear between. topology: of the control mesh. V' numbers,
 /// O(V').
 Scalars sharpness_field(const Topology& topology, const Tessellator& tessellator);
+
+/// A crease as the tessellation's vertices along it.
+struct CreaseCurve {
+  std::vector<Index> vertices;
+  double sharpness;  ///< crease_sharpness()
+};
+
+/// The creases of the control mesh, one for each of its sharp edges inside the mesh, in their order.
+/// O(E + the vertices along them).
+std::vector<CreaseCurve> crease_curves(const Topology& topology, const Tessellator& tessellator);
 
 }  // namespace batten
