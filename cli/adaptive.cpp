@@ -32,7 +32,7 @@ std::string bound_text(double reached, double asked, const std::string& unit) {
   return asked > 0.0 ? text + fmt::format(", of {:.4g}{} asked for", asked, unit) : text;
 }
 
-void draw_result(const SubdivideArguments& arguments, const Mesh& before, const Mesh& after) {
+void draw_result(const SubdivideArguments& arguments, const Mesh& before, const Mesh& after, Job& job) {
   Subject subject;
   subject.control = &after;
   subject.flat = true;
@@ -40,7 +40,7 @@ void draw_result(const SubdivideArguments& arguments, const Mesh& before, const 
   subject.before = &before;
   subject.before_caption = "the mesh given";
   subject.after_caption = size_text(after);
-  draw(subject, arguments.picture, arguments.common.quiet);
+  draw(subject, arguments.picture, job);
 }
 
 }  // namespace
@@ -65,7 +65,7 @@ int run_adaptive(const SubdivideArguments& arguments) {
   }
   job.write(result.mesh);
   if (!arguments.picture.path.empty()) {
-    draw_result(arguments, mesh, result.mesh);
+    draw_result(arguments, mesh, result.mesh, job);
     job.stages.finish("picture");
   }
   Table table;

@@ -30,6 +30,7 @@ struct CommonArguments {
   double alpha = 0.0;
   std::optional<double> tension;
   std::optional<ButterflyBoundary> butterfly_boundary;
+  UpAxis up = UpAxis::Auto;
   bool triangulate = false;
   bool repair = false;
   bool quiet = false;

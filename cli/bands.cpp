@@ -88,7 +88,7 @@ int run_bands(const BandsArguments& arguments) {
   job.stages.finish("split");
   job.write(mixed);
   if (!arguments.picture.path.empty()) {
-    draw_moved(mesh, mixed, arguments.picture, "mixed", common.quiet);
+    draw_moved(mesh, mixed, arguments.picture, "mixed", job);
     job.stages.finish("picture");
   }
   std::vector<double> sizes;

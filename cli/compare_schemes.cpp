@@ -14,7 +14,7 @@ namespace batten::cli {
 namespace {
 
 void draw_compared(const std::vector<ComparedSurface>& all, const Mesh& mesh, const PictureArguments& arguments,
-                   bool quiet) {
+                   Job& job) {
   std::vector<Subject> subjects;
   if (arguments.before_after) {
     Subject given;
@@ -33,7 +33,7 @@ void draw_compared(const std::vector<ComparedSurface>& all, const Mesh& mesh, co
     subject.after_caption = compared.name;
     subjects.push_back(std::move(subject));
   }
-  draw_row(subjects, arguments, quiet);
+  draw_row(subjects, arguments, job);
 }
 
 std::string how(const ComparedSurface& compared) {
@@ -98,7 +98,7 @@ int run_compare_schemes(const SubdivideArguments& arguments) {
       compare_schemes(topology, scheme_as_asked(common, mesh), mesh.points, levels, bar.callback());
   job.stages.finish("compare");
   if (!arguments.picture.path.empty()) {
-    draw_compared(all, mesh, arguments.picture, common.quiet);
+    draw_compared(all, mesh, arguments.picture, job);
     job.stages.finish("picture");
   }
   Table table;

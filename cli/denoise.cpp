@@ -107,7 +107,7 @@ int run_denoise(const DenoiseArguments& arguments) {
   smooth.creases.insert(smooth.creases.end(), result.features.begin(), result.features.end());
   job.write(smooth);
   if (!arguments.picture.path.empty()) {
-    draw_moved(mesh, smooth, arguments.picture, "denoised", common.quiet);
+    draw_moved(mesh, smooth, arguments.picture, "denoised", job);
     job.stages.finish("picture");
   }
   const double diagonal = bounding_diagonal(mesh.points);

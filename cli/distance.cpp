@@ -56,7 +56,7 @@ nlohmann::ordered_json report_json(const DistanceArguments& arguments, const Sur
 /// A scan with faces shows the distances itself; points are drawn where they meet the surface, so that those inside
 /// are seen too.
 void draw_distances(const DistanceArguments& arguments, const Mesh& scan, const Mesh& control, const Topology& topology,
-                    const Scheme& scheme, const SurfaceDistances& measured) {
+                    const Scheme& scheme, const SurfaceDistances& measured, Job& job) {
   constexpr Index kMostMarkers = 20000;
   Subject subject;
   subject.before = &control;
@@ -84,7 +84,7 @@ void draw_distances(const DistanceArguments& arguments, const Mesh& scan, const 
     const double count = static_cast<double>(drawn.size());
     subject.marker_radius = measured.diagonal * std::min(0.25 / std::sqrt(count), 0.012);
   }
-  draw(subject, arguments.picture, arguments.common.quiet);
+  draw(subject, arguments.picture, job);
 }
 
 void write_distances(Job& job, Mesh& scan, const Scalars& distances) {
@@ -150,7 +150,7 @@ int run_distance(const DistanceArguments& arguments) {
   job.stages.finish("measure");
   write_distances(job, scan, measured.distances);
   if (!arguments.picture.path.empty()) {
-    draw_distances(arguments, scan, control, topology, scheme, measured);
+    draw_distances(arguments, scan, control, topology, scheme, measured, job);
     job.stages.finish("picture");
   }
   print_table(topology, scheme, measured, summary, histogram, job);

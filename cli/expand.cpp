@@ -20,7 +20,7 @@ std::string weights_text(const Scheme& scheme, SeriesMatrix matrix) {
 }
 
 void draw_moved(const Mesh& before, const Mesh& after, const PictureArguments& picture, const std::string& caption,
-                bool quiet) {
+                Job& job) {
   Subject subject;
   subject.control = &after;
   subject.flat = true;
@@ -34,7 +34,7 @@ void draw_moved(const Mesh& before, const Mesh& after, const PictureArguments& p
     subject.numbers_scale.title = "distance moved";
     subject.numbers_scale.unit = "in the mesh's unit";
   }
-  draw(subject, arguments, quiet);
+  draw(subject, arguments, job);
 }
 
 }  // namespace batten::cli

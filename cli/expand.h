@@ -1,7 +1,7 @@
 /// \file What the verbs of the mesh series share.
 #pragma once
 #include "batten/expand/mesh_series.h"
-#include "cli/arguments.h"
+#include "cli/job.h"
 
 namespace batten::cli {
 
@@ -14,6 +14,6 @@ std::string weights_text(const Scheme& scheme, SeriesMatrix matrix);
 
 /// Draws the mesh after its vertices were moved, coloured by how far; with --before-after beside the mesh before.
 void draw_moved(const Mesh& before, const Mesh& after, const PictureArguments& picture, const std::string& caption,
-                bool quiet);
+                Job& job);
 
 }  // namespace batten::cli

@@ -41,10 +41,15 @@ Mesh read_input(const CommonArguments& arguments, nlohmann::ordered_json* repair
   return mesh;
 }
 
-void write_output(const CommonArguments& arguments, const Mesh& mesh) {
+UpAxis up_axis_for(const CommonArguments& arguments, const Mesh& mesh) {
+  if (arguments.up != UpAxis::Auto) return arguments.up;
+  return find_up_axis(mesh, file_format(arguments.input, arguments.input_format));
+}
+
+void write_output(const CommonArguments& arguments, const Mesh& mesh, UpAxis up) {
   if (arguments.output.empty()) return;
   ProgressBar bar("writing", arguments.quiet);
-  write_mesh(arguments.output, mesh, {arguments.output_format, !arguments.ascii}, bar.callback());
+  write_mesh(arguments.output, mesh, {arguments.output_format, !arguments.ascii, up}, bar.callback());
 }
 
 std::vector<std::string> tell_losses(const CommonArguments& arguments, const Mesh& mesh) {

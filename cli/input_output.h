@@ -15,8 +15,10 @@ Mesh read_file(const std::string& path, const std::string& format, bool quiet,
 /// `repairs` (left null without --repair) for the report; `notes` as above.
 Mesh read_input(const CommonArguments& arguments, nlohmann::ordered_json* repairs = nullptr,
                 std::vector<std::string>* notes = nullptr);
+/// That of --up, or find_up_axis of the mesh, which is the input's.
+UpAxis up_axis_for(const CommonArguments& arguments, const Mesh& mesh);
 /// Writes to the output; does nothing without one.
-void write_output(const CommonArguments& arguments, const Mesh& mesh);
+void write_output(const CommonArguments& arguments, const Mesh& mesh, UpAxis up);
 /// What the output's format does not keep of the mesh, which is also printed on stderr unless quiet; nothing without an
 /// output.
 std::vector<std::string> tell_losses(const CommonArguments& arguments, const Mesh& mesh);

@@ -297,7 +297,7 @@ int run_interpolate(const InterpolateArguments& arguments) {
   const InterpolatedMesh result = solve(arguments, topology, scheme, job);
   const std::string written = write_result(arguments, result, job);
   if (drawn) {
-    draw(subject_of(given, result, arguments.picture), arguments.picture, common.quiet);
+    draw(subject_of(given, result, arguments.picture), arguments.picture, job);
     job.stages.finish("picture");
   }
   const InterpolationReport& points = result.reports.front();

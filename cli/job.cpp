@@ -10,7 +10,8 @@ Job::Job(std::string verb_in, const CommonArguments& arguments)
     : verb(std::move(verb_in)),
       common(arguments),
       limit(arguments.threads),
-      mesh(read_input(arguments, &repairs, &notes)) {
+      mesh(read_input(arguments, &repairs, &notes)),
+      up(up_axis_for(arguments, mesh)) {
   stages.finish("read");
 }
 
@@ -25,7 +26,7 @@ Topology Job::connect() {
 }
 
 void Job::write(const Mesh& result) {
-  write_output(common, result);
+  write_output(common, result, up);
   lost = tell_losses(common, result);
   stages.finish("write");
 }

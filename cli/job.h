@@ -35,6 +35,7 @@ struct Job {
   std::vector<std::string> lost;       ///< what the output lacks
   std::optional<Index> seam_vertices;  ///< coincident_boundary_count, known after connect()
   Mesh mesh;
+  UpAxis up;  ///< of the mesh as it was read
 };
 
 }  // namespace batten::cli

@@ -101,7 +101,7 @@ void write_frames(const Run& run, const std::vector<Frame>& frames, Job& job) {
   CommonArguments common = run.arguments.common;
   for (std::size_t i = 0; i < frames.size() && !run.arguments.common.output.empty(); ++i) {
     if (!run.arguments.at) common.output = numbered(run.arguments.common.output, i);
-    write_output(common, with_points(run.mesh, frames[i].points));
+    write_output(common, with_points(run.mesh, frames[i].points), job.up);
   }
   job.lost = tell_losses(run.arguments.common, run.mesh);  // all frames lose the same
 }
@@ -113,12 +113,13 @@ void write_animated(const Run& run, const Morph& morph, Job& job) {
   const MorphSurface surface = morph_surface(run.topology, run.scheme, run.mesh, morph, levels, run.frames,
                                              run.arguments.seconds, bar.callback());
   ProgressBar writing("writing", common.quiet);
-  write_animation(common.output, surface.mesh, surface.targets, common.output_format, writing.callback());
+  write_animation(common.output, surface.mesh, surface.targets, {common.output_format, true, job.up},
+                  writing.callback());
   job.lost = tell_losses(common, surface.mesh);
 }
 
 /// At most six of the frames, the ends among them.
-void draw_frames(const Run& run, const std::vector<Frame>& frames) {
+void draw_frames(const Run& run, const std::vector<Frame>& frames, Job& job) {
   constexpr std::size_t kPanels = 6;
   std::vector<Subject> subjects;
   std::vector<Mesh> shapes;
@@ -134,7 +135,7 @@ void draw_frames(const Run& run, const std::vector<Frame>& frames) {
     subject.after_caption = fmt::format("{:.2g}", frame.time);
     subjects.push_back(std::move(subject));
   }
-  draw_row(subjects, run.arguments.picture, run.arguments.common.quiet);
+  draw_row(subjects, run.arguments.picture, job);
 }
 
 std::string what_of(const MorphArguments& arguments) {
@@ -192,7 +193,7 @@ int run_morph(const MorphArguments& arguments) {
   if (!run.animated) write_frames(run, frames, job);
   job.stages.finish("write");
   if (!arguments.picture.path.empty()) {
-    draw_frames(run, frames);
+    draw_frames(run, frames, job);
     job.stages.finish("picture");
   }
   const double largest = moved.rows() > 0 ? moved.rowwise().norm().maxCoeff() : 0.0;

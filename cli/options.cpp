@@ -28,6 +28,9 @@ const Names<Coloring> kColorings{{"error", Coloring::Error},     {"moved", Color
 const Names<View> kViews{{"front", View::Front}, {"back", View::Back}, {"left", View::Left},    {"right", View::Right},
                          {"top", View::Top},     {"iso", View::Iso},   {"bottom", View::Bottom}};
 
+const Names<UpAxis> kUpAxes{{"x", UpAxis::X},       {"y", UpAxis::Y},       {"z", UpAxis::Z},
+                            {"-x", UpAxis::MinusX}, {"-y", UpAxis::MinusY}, {"-z", UpAxis::MinusZ}};
+
 /// What --picture alone gives a meaning, in the verbs that have it.
 const std::vector<std::string> kPictureOptions{"--width",        "--height",      "--samples",
                                                "--view",         "--turntable",   "--color",
@@ -49,6 +52,17 @@ std::string read_view(const std::string& words, PictureArguments& picture) {
            "' is neither a view (front, back, left, right, top, bottom, iso) nor a direction like 1,-2,0.5";
   picture.direction = direction;
   return "";
+}
+
+/// An up axis means something to pictures, GLB and USD.
+void require_upright(const CLI::App& verb, const CommonArguments& common) {
+  if (!is_given(verb, "--up") || verb.get_name() == "render") return;
+  if (is_given(verb, "--picture") || is_given(verb, "--gallery")) return;
+  const bool writes = is_given(verb, "--output");
+  const std::string format = writes ? file_format(common.output, common.output_format) : "";
+  if (format == "glb" || format == "usda") return;
+  throw UsageError(writes ? "--up does nothing for ." + format + ", only for pictures, .glb and .usda"
+                          : std::string("--up does nothing without a picture, a .glb or a .usda"));
 }
 
 /// Standard output takes one picture.
@@ -172,8 +186,14 @@ void add_length(CLI::App& verb, const std::string& name, std::optional<Length>& 
 }
 
 void set_run(CLI::App& verb, CommonArguments& common, int& status, const std::function<int()>& run) {
+  if (verb.get_option_no_throw("--output") != nullptr) {
+    add_choice(verb, "--up", common.up, kUpAxes,
+               "the direction that points up in pictures, GLB and USD; guessed from the format and the shape if not "
+               "given");
+  }
   verb.callback([&verb, &common, &status, run] {
     check_files(verb, common);
+    require_upright(verb, common);
     require_with(verb, {"--ascii", "--output-format"}, {"--output"});
     if (verb.get_option_no_throw("--picture") != nullptr)
       require_with(verb, kPictureOptions, {"--picture", "--gallery"});

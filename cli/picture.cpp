@@ -1,6 +1,9 @@
 #include "cli/picture.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <optional>
 
 #include "batten/error.h"
 #include "cli/input_output.h"
@@ -35,67 +38,97 @@ std::vector<Viewpoint> viewpoints_of(const std::vector<Shot>& shots, const Rende
   return {fit_viewpoint(scenes, options)};
 }
 
-int picture_height(const PictureArguments& arguments, std::size_t panels) {
-  return std::max(1, arguments.width * 3 / (4 * static_cast<int>(panels)));
-}
+/// How the panels of a picture stand.
+struct Layout {
+  int columns;
+  int rows;
 
-RenderOptions render_options(const PictureArguments& arguments, std::size_t panels) {
+  explicit Layout(std::size_t panels) {
+    constexpr int kMostInRow = 3;
+    const auto count = static_cast<int>(panels);
+    rows = count > kMostInRow ? 2 : 1;
+    columns = (count + rows - 1) / rows;
+  }
+};
+
+/// The options of one panel but for its width.
+RenderOptions render_options(const PictureArguments& arguments, const Layout& layout, const Job& job) {
   RenderOptions options;
   options.samples = arguments.samples;
+  options.up = job.up;
   options.view = arguments.view;
   options.direction = arguments.direction;
   options.style.transparent = arguments.transparent;
-  options.height = arguments.height > 0 ? arguments.height : picture_height(arguments, panels);
+  options.height = arguments.height > 0 ? std::max(1, arguments.height / layout.rows)
+                                        : std::max(1, arguments.width * 3 / (4 * layout.columns));
+  // Words have the size that they would have in a picture of one panel.
+  constexpr double kWords = 3.0 / (4.0 * 34.0);
+  constexpr double kMostWords = 1.0 / 8.0;
+  options.style.text_size = std::min(kWords * arguments.width, kMostWords * options.height);
   return options;
 }
 
-/// Side by side, with a bar at the right where it has pixels; one picture or a turntable.
-void draw_shots(const std::vector<Shot>& shots, RenderOptions options, const Panel& bar,
-                const PictureArguments& arguments, bool quiet) {
-  options.width = (arguments.width - bar.picture.width) / static_cast<int>(shots.size());
+/// In rows, with a bar at the right if there is a scale; one picture or a turntable.
+void draw_shots(const std::vector<Shot>& shots, RenderOptions options, const ColorScale* scale,
+                const PictureArguments& arguments, Job& job) {
+  const Layout layout(shots.size());
+  for (const Shot& shot : shots) options.style = style_beside(*shot.scene, options.style);
+  const int height = arguments.height > 0 ? arguments.height : options.height * layout.rows;
+  const bool has_captions =
+      std::any_of(shots.begin(), shots.end(), [](const Shot& shot) { return !shot.caption.empty(); });
+  const int below = has_captions ? caption_height(options.style) : 0;
+  options.height = std::max(1, options.height - below);
+  Panel bar;
+  if (scale != nullptr) bar.picture = draw_color_bar(*scale, height, options.style);
+  options.width = (arguments.width - bar.picture.width) / layout.columns;
   if (options.width < 1) {
     throw Error(ErrorCode::BadArgument, "the picture is too narrow for its colour bar, which takes " +
                                             std::to_string(bar.picture.width) + " pixels; ask for a larger --width");
   }
   const std::vector<Viewpoint> viewpoints = viewpoints_of(shots, options, arguments.turntable);
-  ProgressBar progress("drawing", quiet);
+  ProgressBar progress("drawing", job.common.quiet);
   const Progress report = progress.callback();
   const double share = 1.0 / static_cast<double>(viewpoints.size() * shots.size());
+  std::vector<std::string> notes;
   double done = 0.0;
   for (std::size_t i = 0; i < viewpoints.size(); ++i) {
     options.viewpoint = viewpoints[i];
     std::vector<Panel> panels;
-    int left = arguments.width - bar.picture.width;
     for (const Shot& shot : shots) {
       RenderOptions own = options;
       own.shading = shot.shading;
-      if (&shot == &shots.back()) own.width = left;  // the last panel takes the remainder of the division
-      left -= own.width;
+      // The last column and the last row take the remainders of the divisions.
+      const auto place = static_cast<int>(panels.size());
+      if (place % layout.columns + 1 == layout.columns)
+        own.width = arguments.width - bar.picture.width - (layout.columns - 1) * options.width;
+      if (place / layout.columns + 1 == layout.rows)
+        own.height = height - (layout.rows - 1) * (options.height + below) - below;
       const Progress part = [&](double here) { return !report || report(done + share * here); };
-      panels.push_back({render(*shot.scene, own, part), shot.caption});
+      panels.push_back({render(*shot.scene, own, part, &notes), shot.caption});
       done += share;
     }
-    if (bar.picture.width > 0) panels.push_back(bar);
-    const Picture picture = panels.size() == 1 ? std::move(panels.front().picture) : beside(panels, options.style);
+    Picture picture = in_rows(panels, layout.columns, options.style);
+    if (scale != nullptr) picture = beside({{std::move(picture), ""}, bar}, options.style);
     write_png(arguments.turntable > 0 ? numbered(arguments.path, i) : arguments.path, picture);
   }
+  if (notes.empty()) return;
+  job.notes.push_back(arguments.path + ": " + notes.front());
+  if (!job.common.quiet) fmt::print(stderr, "batten: {}\n", job.notes.back());
 }
 
 }  // namespace
 
-void draw(const Subject& subject, const PictureArguments& arguments, bool quiet) {
-  const Scene after = scene_of(subject, arguments.coloring, quiet);
+void draw(const Subject& subject, const PictureArguments& arguments, Job& job) {
+  const Scene after = scene_of(subject, arguments.coloring, job.common.quiet);
   const Scene before = scene_before(subject);
   std::vector<Shot> shots;
   if (arguments.before_after) shots.push_back({&before, subject.before_caption, Shading::Plain});
   shots.push_back({&after, arguments.before_after ? subject.after_caption : "",
                    arguments.coloring == Coloring::Zebra ? Shading::Zebra : Shading::Plain});
-  RenderOptions options = render_options(arguments, shots.size());
+  RenderOptions options = render_options(arguments, Layout(shots.size()), job);
   options.marker_radius = subject.marker_radius;
-  Panel bar;
-  if (after.scalars.size() > 0 || after.marker_scalars.size() > 0)
-    bar.picture = draw_color_bar(after.scale, options.height, options.style);
-  draw_shots(shots, options, bar, arguments, quiet);
+  const bool measures = !after.scale.title.empty();
+  draw_shots(shots, options, measures ? &after.scale : nullptr, arguments, job);
 }
 
 /// Gives the scenes with scalars one scale; returns it, if there are any.
@@ -114,30 +147,27 @@ static std::optional<ColorScale> share_scale(std::vector<Scene>& scenes, const S
   return scale;
 }
 
-void draw_row(const std::vector<Subject>& subjects, const PictureArguments& arguments, bool quiet) {
+void draw_row(const std::vector<Subject>& subjects, const PictureArguments& arguments, Job& job) {
   std::vector<Scene> scenes;
   scenes.reserve(subjects.size());
-  for (const Subject& subject : subjects) scenes.push_back(scene_of(subject, arguments.coloring, quiet));
+  for (const Subject& subject : subjects) scenes.push_back(scene_of(subject, arguments.coloring, job.common.quiet));
   std::vector<Shot> shots;
   shots.reserve(subjects.size());
   for (std::size_t i = 0; i < subjects.size(); ++i) {
     shots.push_back({&scenes[i], subjects[i].after_caption,
                      arguments.coloring == Coloring::Zebra ? Shading::Zebra : Shading::Plain});
   }
-  const RenderOptions options = render_options(arguments, shots.size());
-  Panel bar;
-  if (!subjects.empty() && subjects.back().numbers.size() > 0) {
-    const std::optional<ColorScale> scale = share_scale(scenes, subjects.back().numbers_scale);
-    if (scale) bar.picture = draw_color_bar(*scale, options.height, options.style);
-  }
-  draw_shots(shots, options, bar, arguments, quiet);
+  std::optional<ColorScale> scale;
+  if (!subjects.empty() && subjects.back().numbers.size() > 0)
+    scale = share_scale(scenes, subjects.back().numbers_scale);
+  draw_shots(shots, render_options(arguments, Layout(shots.size()), job), scale ? &*scale : nullptr, arguments, job);
 }
 
 #else
 
-void draw(const Subject& /*subject*/, const PictureArguments& arguments, bool quiet) { draw_row({}, arguments, quiet); }
+void draw(const Subject& /*subject*/, const PictureArguments& arguments, Job& job) { draw_row({}, arguments, job); }
 
-void draw_row(const std::vector<Subject>& /*subjects*/, const PictureArguments& /*arguments*/, bool /*quiet*/) {
+void draw_row(const std::vector<Subject>& /*subjects*/, const PictureArguments& /*arguments*/, Job& /*job*/) {
   throw Error(ErrorCode::NotAvailable, "this build has no pictures; configure with BATTEN_WITH_RENDER=ON");
 }
 

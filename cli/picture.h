@@ -4,6 +4,7 @@
 
 #include "batten/mesh/topology.h"
 #include "cli/arguments.h"
+#include "cli/job.h"
 
 namespace batten::cli {
 
@@ -25,8 +26,9 @@ struct Subject {
   std::string after_caption;
 };
 
-/// Draws and writes. Throws what the operators throw, and Error(NotAvailable) in a build without pictures.
-void draw(const Subject& subject, const PictureArguments& arguments, bool quiet);
+/// Draws with the job's axis up, and writes. What is left out of the picture is said on stderr and added to the job's
+/// notes. Throws what the operators throw, and Error(NotAvailable) in a build without pictures.
+void draw(const Subject& subject, const PictureArguments& arguments, Job& job);
 
 /// The share of numbers that may lie beyond a colour bar: curvature has no bound at extraordinary points, and a few
 /// numbers must not take the whole bar.
@@ -35,8 +37,9 @@ inline constexpr double kWildShare = 0.02;
 /// The request that --color mean makes.
 ScaleRequest mean_curvature_scale();
 
-/// Several side by side, each with its after_caption, from one viewpoint. Their numbers have one scale, that of the
-/// last subject's request over the numbers of all, and its bar; colourings have none.
-void draw_row(const std::vector<Subject>& subjects, const PictureArguments& arguments, bool quiet);
+/// Several side by side, in two rows if there are more than three, each with its after_caption, from one viewpoint.
+/// Their numbers have one scale, that of the last subject's request over the numbers of all, and its bar; colourings
+/// have none.
+void draw_row(const std::vector<Subject>& subjects, const PictureArguments& arguments, Job& job);
 
 }  // namespace batten::cli

@@ -36,7 +36,7 @@ int run_render(const RenderArguments& arguments) {
   job.stages.finish("prepare");
   PictureArguments picture = arguments.picture;
   picture.path = common.output;
-  draw(subject, picture, common.quiet);
+  draw(subject, picture, job);
   job.stages.finish("picture");
   Table table;
   table.add("mesh", size_text(mesh));

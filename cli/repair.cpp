@@ -19,7 +19,7 @@ int run_repair(const RepairArguments& arguments) {
   stages.finish("read");
   const RepairResult repaired = repair(mesh, arguments.options, ProgressBar("repairing", common.quiet).callback());
   stages.finish("repair");
-  write_output(common, repaired.mesh);
+  write_output(common, repaired.mesh, up_axis_for(common, mesh));
   const std::vector<std::string> lost = tell_losses(common, repaired.mesh);
   stages.finish("write");
   Table table;

@@ -1,9 +1,12 @@
 /// The scene of a subject: its mesh or the surface of it, its colours, its numbers.
 #include <algorithm>
+#include <limits>
 
 #include "batten/error.h"
 #include "batten/expand/surface_fields.h"
+#include "batten/mesh/vertex_fields.h"
 #include "batten/render/srgb.h"
+#include "batten/tessellate/grid_fields.h"
 #include "batten/tessellate/surface_mesh.h"
 #include "cli/progress.h"
 #include "cli/scene.h"
@@ -12,7 +15,13 @@ namespace batten::cli {
 
 namespace {
 
-bool is_field(Coloring coloring) { return coloring != Coloring::None && coloring != Coloring::Zebra; }
+constexpr Color kNeutral{0.42F, 0.42F, 0.41F};  // leaves colours to the numbers
+
+/// True for what the surface has everywhere; valence and sharpness belong to vertices and edges.
+bool is_field(Coloring coloring) {
+  return coloring == Coloring::Error || coloring == Coloring::Moved || coloring == Coloring::Mean ||
+         coloring == Coloring::Gaussian;
+}
 
 SurfaceField field_of(Coloring coloring) {
   switch (coloring) {
@@ -22,12 +31,8 @@ SurfaceField field_of(Coloring coloring) {
       return SurfaceField::Moved;
     case Coloring::Mean:
       return SurfaceField::MeanCurvature;
-    case Coloring::Gaussian:
-      return SurfaceField::GaussianCurvature;
-    case Coloring::Valence:
-      return SurfaceField::Valence;
     default:
-      return SurfaceField::Sharpness;
+      return SurfaceField::GaussianCurvature;
   }
 }
 
@@ -44,7 +49,7 @@ ScaleRequest scale_request(Coloring coloring, SchemeKind kind) {
     case Coloring::Valence:
       return {"valence", "", ColorMap::Diverging, kind == SchemeKind::Loop ? 6.0 : 4.0, false, true};
     default:
-      return {"sharpness", "levels; 10: for ever", ColorMap::Warm, 0.0, false, false};
+      return {"sharpness", "levels; 10: for ever", ColorMap::Sequential, 0.0, false, false};
   }
 }
 
@@ -119,6 +124,79 @@ Scene flat_scene(const Subject& subject, Coloring coloring, const Progress& prog
   return scene;
 }
 
+/// Dots at the vertices that are not regular, in the colours of their valence.
+void add_valences(const Subject& subject, const Topology& topology, Scene& scene) {
+  const Scalars valences = vertex_valences(topology);
+  const ScaleRequest request = scale_request(Coloring::Valence, subject.scheme.kind);
+  std::vector<Index> irregular;
+  for (Index v = 0; v < topology.vertex_count(); ++v) {
+    if (valences[v] > 0.0 && valences[v] != request.middle) irregular.push_back(v);
+  }
+  scene.markers = scene.surface.points(irregular, Eigen::all);
+  scene.marker_scalars = valences(irregular);
+  scene.scale = fit_color_scale(valences, request);
+}
+
+/// Lines along the creases of the surface, or of the mesh as it is.
+std::vector<CreaseCurve> curves_of(const Subject& subject, const Topology& topology, bool flat) {
+  const int levels = flat ? 0 : subject.levels >= 0 ? subject.levels : picture_levels(topology);
+  if (levels > 0) return crease_curves(topology, Tessellator(topology, subject.scheme, levels));
+  std::vector<CreaseCurve> curves;
+  for (Index e = 0; e < topology.edge_count(); ++e) {
+    const Index h = topology.edge_half_edge(e);
+    const double sharpness = crease_sharpness(topology, e);
+    if (sharpness > 0.0) curves.push_back({{topology.origin(h), topology.destination(h)}, sharpness});
+  }
+  return curves;
+}
+
+/// Lines along the creases and dots at the sharp vertices, in the colours of their sharpness.
+void add_sharpness(const Subject& subject, const Topology& topology, bool flat, Scene& scene) {
+  std::vector<double> numbers;
+  scene.lines.points = scene.surface.points;
+  for (const CreaseCurve& curve : curves_of(subject, topology, flat)) {
+    for (std::size_t i = 0; i + 1 < curve.vertices.size(); ++i) {
+      scene.lines.add_face({curve.vertices[i], curve.vertices[i + 1]});
+      numbers.push_back(curve.sharpness);
+    }
+  }
+  scene.line_scalars = Eigen::Map<const Scalars>(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
+  std::vector<Index> sharp;
+  for (Index v = 0; v < topology.vertex_count(); ++v) {
+    if (topology.vertex_sharpness(v) > 0.0F) sharp.push_back(v);
+  }
+  scene.markers = scene.surface.points(sharp, Eigen::all);
+  scene.marker_scalars.resize(static_cast<Eigen::Index>(sharp.size()));
+  for (std::size_t i = 0; i < sharp.size(); ++i) {
+    const double sharpness = std::min(double{topology.vertex_sharpness(sharp[i])}, double{kInfiniteSharpness});
+    scene.marker_scalars[static_cast<Eigen::Index>(i)] = sharpness;
+    numbers.push_back(sharpness);
+  }
+  const Eigen::Map<const Scalars> all(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
+  scene.scale = fit_color_scale(all, scale_request(Coloring::Sharpness, subject.scheme.kind));
+  scene.scale.low = 0.0;
+}
+
+/// Adds the control mesh as lines without numbers.
+void add_control(const Mesh& control, Scene& scene) {
+  if (scene.lines.face_count() == 0) {
+    scene.lines = bare(control);
+    return;
+  }
+  Mesh& lines = scene.lines;
+  const Index first = lines.vertex_count();
+  const auto old = static_cast<Eigen::Index>(lines.face_count());
+  Points both(first + control.vertex_count(), 3);
+  both << lines.points, control.points;
+  lines.points = std::move(both);
+  const Index corners = lines.face_offsets.back();
+  for (const Index v : control.face_vertices) lines.face_vertices.push_back(first + v);
+  for (std::size_t f = 1; f < control.face_offsets.size(); ++f)
+    lines.face_offsets.push_back(corners + control.face_offsets[f]);
+  scene.line_scalars.conservativeResize(lines.face_count());
+  scene.line_scalars.tail(lines.face_count() - old).setConstant(std::numeric_limits<double>::quiet_NaN());
+}
+
 }  // namespace
 
 Scene scene_of(const Subject& subject, Coloring coloring, bool quiet) {
@@ -131,16 +209,22 @@ Scene scene_of(const Subject& subject, Coloring coloring, bool quiet) {
   Scene scene = flat ? flat_scene(subject, coloring, bar.callback()) : surface_scene(subject, coloring, bar.callback());
   if (is_field(coloring)) {
     scene.scale = fit_color_scale(scene.scalars, scale_request(coloring, subject.scheme.kind));
-    if (coloring == Coloring::Sharpness) scene.scale.low = 0.0;
   }
   scene.markers = subject.markers;
+  if (coloring == Coloring::Valence || coloring == Coloring::Sharpness) {
+    const Topology topology = topology_of(subject, bar.callback());
+    scene.surface_color = kNeutral;
+    scene.colors.resize(0, 3);
+    if (coloring == Coloring::Valence) add_valences(subject, topology, scene);
+    if (coloring == Coloring::Sharpness) add_sharpness(subject, topology, flat, scene);
+  }
   if (subject.numbers.size() > 0) {
     const bool at_markers = subject.markers.rows() > 0;
     (at_markers ? scene.marker_scalars : scene.scalars) = subject.numbers;
     scene.scale = fit_color_scale(subject.numbers, subject.numbers_scale);
-    if (at_markers) scene.surface_color = {0.42F, 0.42F, 0.41F};  // leaves colours to the numbers
+    if (at_markers) scene.surface_color = kNeutral;
   }
-  if (subject.draw_control) scene.lines = bare(*subject.control);
+  if (subject.draw_control) add_control(*subject.control, scene);
   return scene;
 }
 

@@ -83,7 +83,7 @@ int run_sharpen(const SharpenArguments& arguments) {
   const Mesh sharp = with_points(mesh, result.points);
   job.write(sharp);
   if (!arguments.picture.path.empty()) {
-    draw_moved(mesh, sharp, arguments.picture, "sharpened", common.quiet);
+    draw_moved(mesh, sharp, arguments.picture, "sharpened", job);
     job.stages.finish("picture");
   }
   print_table(arguments, topology, scheme, result, job);

@@ -26,7 +26,7 @@ int run_subdivide(const SubdivideArguments& arguments) {
     subject.before = &mesh;
     subject.before_caption = "the mesh given";
     subject.after_caption = "refined " + (levels == 1 ? "once" : std::to_string(levels) + " times");
-    draw(subject, arguments.picture, common.quiet);
+    draw(subject, arguments.picture, job);
     job.stages.finish("picture");
   }
   Table table;

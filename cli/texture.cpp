@@ -54,7 +54,7 @@ Subject subject_of(const Canvas& canvas, const Mesh& colored) {
   return subject;
 }
 
-void draw_gallery(const TextureArguments& arguments, const Canvas& canvas) {
+void draw_gallery(const TextureArguments& arguments, const Canvas& canvas, Job& job) {
   std::vector<Subject> subjects;
   std::vector<Mesh> surfaces;
   surfaces.reserve(std::size(kTexturePresets));
@@ -65,7 +65,7 @@ void draw_gallery(const TextureArguments& arguments, const Canvas& canvas) {
   }
   PictureArguments picture = arguments.picture;
   picture.path = arguments.gallery;
-  draw_row(subjects, picture, arguments.common.quiet);
+  draw_row(subjects, picture, job);
 }
 
 }  // namespace
@@ -89,11 +89,11 @@ int run_texture(const TextureArguments& arguments) {
   if (!arguments.picture.path.empty()) {
     Subject subject = subject_of(canvas, colored);
     subject.after_caption = name_of(arguments.preset);
-    draw(subject, arguments.picture, common.quiet);
+    draw(subject, arguments.picture, job);
     job.stages.finish("picture");
   }
   if (!arguments.gallery.empty()) {
-    draw_gallery(arguments, canvas);
+    draw_gallery(arguments, canvas, job);
     job.stages.finish("gallery");
   }
   const NoiseOptions& noise = texture.noises.front();

@@ -37,6 +37,7 @@
 #include "batten/mesh/summary.h"
 #include "batten/mesh/topology.h"
 #include "batten/mesh/triangulate.h"
+#include "batten/mesh/up_axis.h"
 #include "batten/mesh/vertex_fields.h"
 #include "batten/nearest/distance_summary.h"
 #include "batten/nearest/nearest_point.h"

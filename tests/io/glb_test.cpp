@@ -150,6 +150,36 @@ TEST(GlbWriter, FarFromTheOriginTheNodeCarriesThePlace) {
   EXPECT_LT((points - mesh.points).cwiseAbs().maxCoeff(), 1.5e-7);
 }
 
+TEST(GlbWriter, StandsTheModelUprightAndIsReadSo) {
+  const TemporaryFolder folder;
+  Mesh mesh = cube();
+  mesh.points.col(2) *= 3.0;
+  mesh.points.rowwise() += Eigen::RowVector3d(1000.0, 2000.0, 4000.0);
+  WriteOptions options;
+  options.up = UpAxis::Z;
+  write_mesh(folder.path("m.glb"), mesh, options);
+  const Mesh read = read_mesh(folder.path("m.glb"));
+  EXPECT_EQ(find_up_axis(read, "glb"), UpAxis::Y);
+  const auto row_of = [&](const Eigen::RowVector3d& point) { return (read.points.rowwise() - point).rowwise().norm(); };
+  for (const Eigen::RowVector3d& p : mesh.points.rowwise())
+    EXPECT_EQ(row_of({p.x(), p.z(), -p.y()}).minCoeff(), 0.0) << p;
+  const Floats normals = floats(load(folder.path("m.glb")), "NORMAL");
+  const Floats points = floats(load(folder.path("m.glb")), "POSITION");
+  for (Eigen::Index i = 0; i < normals.rows(); ++i) {
+    if (normals(i, 1) <= 0.9F) continue;
+    EXPECT_EQ(points(i, 1), points.col(1).maxCoeff());  // the top, which was at the largest z
+  }
+}
+
+TEST(FindUpAxis, FollowsTheFormatsConventionUnlessTheShapeSaysOtherwise) {
+  const Mesh neither = dodecahedron();
+  for (const char* format : {"obj", "ply", "off", "glb"}) EXPECT_EQ(find_up_axis(neither, format), UpAxis::Y) << format;
+  for (const char* format : {"stl", "xyz"}) EXPECT_EQ(find_up_axis(neither, format), UpAxis::Z) << format;
+  const Mesh joint = read_mesh(std::string(BATTEN_SOURCE_DIR) + "/models/creature.obj");  // stands on four feet on z
+  EXPECT_EQ(find_up_axis(joint, "obj"), UpAxis::Z);
+  EXPECT_EQ(find_up_axis(joint, "glb"), UpAxis::Y);
+}
+
 TEST(GlbWriter, WithoutNormalsTheyAreTheFacesMean) {
   const Floats normals = floats(written(cube()), "NORMAL");
   const Mesh mesh = cube();

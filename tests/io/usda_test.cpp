@@ -34,6 +34,7 @@ const std::map<std::string, std::string> kSchema = {
     {"primvars:displayOpacity", "float[]"},
     {"primvars:st", "texCoord2f[]"},
     {"primvars:st:indices", "int[]"},
+    {"xformOp:transform", "matrix4d"},
     {"xformOp:translate", "double3"},
     {"xformOpOrder", "uniform token[]"},
     {"elementType", "uniform token"},
@@ -58,9 +59,11 @@ struct Usda {
   }
 };
 
-Usda written_usda(const Mesh& mesh) {
+Usda written_usda(const Mesh& mesh, UpAxis up = UpAxis::Y) {
   const TemporaryFolder folder;
-  write_mesh(folder.path("m.usda"), mesh);
+  WriteOptions options;
+  options.up = up;
+  write_mesh(folder.path("m.usda"), mesh, options);
   Usda file;
   file.text = file_text(folder.path("m.usda"));
   std::istringstream lines(file.text);
@@ -103,7 +106,7 @@ TEST(UsdaWriter, EveryAttributeIsDocumented) {
   std::set<std::string> missing;
   for (const auto& entry : kSchema) missing.insert(entry.first);
   for (const Mesh& mesh : {tagged_mesh(), polygons}) {
-    for (const auto& type : written_usda(mesh).types) {
+    for (const auto& type : written_usda(mesh, UpAxis::X).types) {
       ASSERT_EQ(kSchema.count(type.first), 1U) << type.first;
       EXPECT_EQ(kSchema.at(type.first), type.second) << type.first;
       missing.erase(type.first);
@@ -188,6 +191,27 @@ TEST(UsdaWriter, FarFromTheOriginTheTransformCarriesThePlace) {
   const std::vector<double> points = file.numbers("points");
   for (Eigen::Index i = 0; i < mesh.points.size(); ++i) EXPECT_EQ(points[i] + place[i % 3], mesh.points.data()[i]);
   EXPECT_EQ(written_usda(grid(3, 3)).value("xformOpOrder"), "nothing");
+}
+
+TEST(UsdaWriter, StandsTheModelUpright) {
+  Mesh mesh = grid(1, 1);
+  const auto says = [](const Usda& file, const std::string& words) {
+    return file.text.find(words) != std::string::npos;
+  };
+  const Usda plain = written_usda(mesh);
+  EXPECT_TRUE(says(plain, "upAxis = \"Y\""));
+  const Usda on_z = written_usda(mesh, UpAxis::Z);
+  EXPECT_TRUE(says(on_z, "upAxis = \"Z\""));
+  EXPECT_EQ(on_z.values.at("points"), plain.values.at("points"));
+  EXPECT_EQ(plain.values.count("xformOp:transform") + on_z.values.count("xformOp:transform"), 0U);
+  // As a row times the matrix: x becomes y, y becomes x, z becomes -z.
+  Usda on_x = written_usda(mesh, UpAxis::X);
+  EXPECT_TRUE(says(on_x, "upAxis = \"Y\""));
+  EXPECT_EQ(on_x.values.at("xformOp:transform"), "( (0, 1, 0, 0), (1, 0, 0, 0), (0, 0, -1, 0), (0, 0, 0, 1) )");
+  EXPECT_EQ(on_x.values.at("xformOpOrder"), "[\"xformOp:transform\"]");
+  mesh.points.rowwise() += Eigen::RowVector3d(1e6, 0, 0);
+  on_x = written_usda(mesh, UpAxis::X);
+  EXPECT_EQ(on_x.values.at("xformOpOrder"), "[\"xformOp:transform\", \"xformOp:translate\"]");
 }
 
 TEST(UsdaWriter, ACornerWithoutATextureTakesZeros) {

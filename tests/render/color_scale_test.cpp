@@ -58,6 +58,24 @@ TEST(ColorScale, DivergingReachesAsFarToBothSidesOfItsMiddle) {
   EXPECT_TRUE(std::isnan(scale.position(kNaN)));
 }
 
+TEST(ColorScale, OneSidedNumbersHaveAOneSidedBar) {
+  ColorScale scale = fit_color_scale(Eigen::VectorXd::LinSpaced(11, 0.1, 2.0), request(ColorMap::Diverging));
+  EXPECT_EQ(scale.map, ColorMap::Warm);
+  EXPECT_EQ(scale.low, 0.0);  // it would start near the middle
+  EXPECT_EQ(scale.high, 2.0);
+  scale = fit_color_scale(Eigen::VectorXd::LinSpaced(11, -5.0, -4.0), request(ColorMap::Diverging));
+  EXPECT_EQ(scale.map, ColorMap::Cool);
+  EXPECT_EQ(scale.low, -5.0);
+  EXPECT_EQ(scale.high, -4.0);
+  EXPECT_EQ(map_color(ColorMap::Cool, 1.0), map_color(ColorMap::Diverging, 0.5));
+  EXPECT_EQ(map_color(ColorMap::Cool, 0.0), map_color(ColorMap::Diverging, 0.0));
+  ScaleRequest around_four = request(ColorMap::Diverging);
+  around_four.middle = 4.0;
+  scale = fit_color_scale(Eigen::VectorXd::LinSpaced(3, 4.0, 6.0), around_four);
+  EXPECT_EQ(scale.map, ColorMap::Warm);
+  EXPECT_EQ(scale.low, 4.0);
+}
+
 TEST(ColorScale, OutliersDoNotTakeTheBar) {
   Eigen::VectorXd values = Eigen::VectorXd::LinSpaced(1001, 5.0, 6.0);
   values[3] = 1e6;

@@ -79,12 +79,49 @@ TEST(RenderGeometry, UpIsWhereTheShapeStands) {
   for (Index i = 0; i < 4; ++i) pyramid.add_face({i, 4, (i + 1) % 4});
   Scene scene;
   scene.surface = pyramid;
-  EXPECT_EQ(resolve_up({&scene}, frame_of({&scene}), UpAxis::Auto), UpAxis::Y);
-  EXPECT_EQ(resolve_up({&scene}, frame_of({&scene}), UpAxis::Z), UpAxis::Z);
+  EXPECT_EQ(resolve_up({&scene}, UpAxis::Auto), UpAxis::Y);
+  EXPECT_EQ(resolve_up({&scene}, UpAxis::Z), UpAxis::Z);
   scene.surface.points.col(1).swap(scene.surface.points.col(2));
-  EXPECT_EQ(resolve_up({&scene}, frame_of({&scene}), UpAxis::Auto), UpAxis::Z);
+  EXPECT_EQ(resolve_up({&scene}, UpAxis::Auto), UpAxis::Z);
   scene.surface = cube();
-  EXPECT_EQ(resolve_up({&scene}, frame_of({&scene}), UpAxis::Auto), UpAxis::Z);
+  EXPECT_EQ(resolve_up({&scene}, UpAxis::Auto), UpAxis::Z);
+}
+
+TEST(RenderGeometry, FlatMeshesAreSeenAlongTheirNormal) {
+  Scene scene;
+  scene.surface = grid(5, 3);
+  const Eigen::Vector3d normal(2.0 / 7.0, -3.0 / 7.0, 6.0 / 7.0);
+  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal);
+  scene.surface.points = (scene.surface.points * turn.toRotationMatrix().transpose()).eval();
+  const auto direction = [&] {
+    const std::array<double, 3> view = fit_viewpoint({&scene}, {}).direction;
+    return Eigen::Vector3d(view[0], view[1], view[2]);
+  };
+  EXPECT_LT((direction() - normal).norm(), 1e-12);
+  scene.surface.points.row(0) += 0.2 * normal.transpose();
+  EXPECT_GT((direction() - normal).norm(), 0.1);
+  scene.surface = cube();
+  scene.surface.points.col(2) *= 1e-4;  // a closed plate has no side that is the front
+  EXPECT_NO_THROW(direction());
+  scene.surface = grid(5, 3);
+  EXPECT_EQ(turntable({&scene}, {}, 3).size(), 3U);  // not from straight above
+}
+
+TEST(RenderGeometry, TheDefaultViewIsFromTheFront) {
+  Scene scene;
+  scene.surface = cube();
+  for (const double depth : {0.1, 1.0, 10.0}) {
+    scene.surface.points = cube().points;
+    scene.surface.points.col(1) *= depth;
+    for (const UpAxis up : {UpAxis::Y, UpAxis::Z, UpAxis::X, UpAxis::MinusY}) {
+      RenderOptions options;
+      options.up = up;
+      const std::array<double, 3> view = fit_viewpoint({&scene}, options).direction;
+      const Eigen::Vector3d direction(view[0], view[1], view[2]);
+      EXPECT_GT(-direction.dot(up_frame(up).back), std::abs(direction.dot(up_frame(up).right)));
+      EXPECT_GT(direction.dot(up_frame(up).up), 0.3);
+    }
+  }
 }
 
 TEST(RenderGeometry, NamedViewsStandOnTheirSide) {

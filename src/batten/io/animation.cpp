@@ -56,17 +56,18 @@ void require_targets(const std::string& name, const Mesh& mesh, const MorphTarge
 
 }  // namespace
 
-void write_animation(const std::string& path, const Mesh& mesh, const MorphTargets& targets, const std::string& format,
-                     const Progress& progress) {
+void write_animation(const std::string& path, const Mesh& mesh, const MorphTargets& targets,
+                     const WriteOptions& options, const Progress& progress) {
   const std::string name = path == "-" ? "standard output" : path;
-  const std::string kind = file_format(path, format);
+  const std::string kind = file_format(path, options.format);
   if (kind != "glb") throw Error(ErrorCode::UnknownFormat, name + ": only glb holds animations, not " + kind);
   io::require_writable(name, mesh);
   require_targets(name, mesh, targets);
 #ifdef BATTEN_WITH_GLTF
   write_atomically(path, [&](const std::string& temporary) {
     io::OutputFile file(temporary, name, progress);
-    io::write_glb(file, mesh, &targets);
+    const UpAxis up = options.up == UpAxis::Auto ? guess_up_axis(mesh, UpAxis::Y) : options.up;
+    io::write_glb(file, mesh, up, &targets);
     file.close();
   });
 #else

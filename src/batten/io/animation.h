@@ -2,6 +2,7 @@
 #pragma once
 #include <string>
 
+#include "batten/io/io.h"
 #include "batten/mesh/morph_targets.h"
 #include "batten/types.h"
 
@@ -12,6 +13,6 @@ namespace batten {
 /// the first time. Throws what write_mesh throws, Error(UnknownFormat) for other file types, and Error(BadShape,
 /// BadArgument, NotFinite) for targets that do not fit the mesh or times that do not increase.
 void write_animation(const std::string& path, const Mesh& mesh, const MorphTargets& targets,
-                     const std::string& format = "", const Progress& progress = {});
+                     const WriteOptions& options = {}, const Progress& progress = {});
 
 }  // namespace batten

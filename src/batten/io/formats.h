@@ -3,6 +3,7 @@
 #include "batten/io/source.h"
 #include "batten/mesh/mesh.h"
 #include "batten/mesh/morph_targets.h"
+#include "batten/mesh/up_axis.h"
 #include "batten/output.h"
 
 namespace batten::io {
@@ -25,8 +26,8 @@ void write_off(OutputFile& file, const Mesh& mesh);
 void write_stl(OutputFile& file, const Mesh& mesh, Encoding encoding);
 void write_xyz(OutputFile& file, const Mesh& mesh);
 /// In builds with tinygltf (BATTEN_WITH_GLTF) only. targets: null, or targets that write_animation has checked.
-void write_glb(OutputFile& file, const Mesh& mesh, const MorphTargets* targets = nullptr);
-void write_usda(OutputFile& file, const Mesh& mesh);
+void write_glb(OutputFile& file, const Mesh& mesh, UpAxis up, const MorphTargets* targets = nullptr);
+void write_usda(OutputFile& file, const Mesh& mesh, UpAxis up);
 /// True for polygons that USDA holds as they are: a mesh with normals and without any choice about a subdivision
 /// surface, and a mesh of the Butterflies, which USD does not know.
 bool is_usda_polygonal(const Mesh& mesh);

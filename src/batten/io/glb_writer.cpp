@@ -48,8 +48,9 @@ double linear_from_srgb(double value) {
 /// The model that tinygltf writes: one mesh with a primitive for each material, all with the same vertices.
 class SurfaceModel {
  public:
-  SurfaceModel(const std::string& name, const Mesh& mesh, const MorphTargets* morph)
+  SurfaceModel(const std::string& name, const Mesh& mesh, UpAxis up, const MorphTargets* morph)
       : mesh_(mesh),
+        turned_(to_y_up(up)),
         morph_(morph),
         hidden_(hidden_faces(mesh)),
         frame_(float_frame(name, mesh.points)),
@@ -89,6 +90,10 @@ class SurfaceModel {
   const tinygltf::Model& model() const { return model_; }
 
  private:
+  /// glTF has y up. Without a turn, zeros keep their signs.
+  Eigen::RowVector3d turned(const Eigen::RowVector3d& row) const {
+    return turned_.isIdentity(0.0) ? row : Eigen::RowVector3d((turned_ * row.transpose()).transpose());
+  }
   std::ptrdiff_t vertex_count() const { return static_cast<std::ptrdiff_t>(corners_.corner_of_vertex.size()); }
   /// The index 65535 is reserved: it would restart the primitive.
   bool short_indices() const { return vertex_count() <= 65535; }
@@ -126,11 +131,11 @@ class SurfaceModel {
     std::map<std::string, int> attributes;
     const auto corner = [&](std::ptrdiff_t vertex) { return corners_.corner_of_vertex[vertex]; };
     attributes["POSITION"] = blocks.add_floats<3>(vertex_count(), [&](std::ptrdiff_t i) {
-      return Eigen::RowVector3d(mesh_.points.row(mesh_.face_vertices[corner(i)]) - frame_.origin);
+      return turned(mesh_.points.row(mesh_.face_vertices[corner(i)]) - frame_.origin);
     });
     blocks.add_bounds(attributes["POSITION"]);
     attributes["NORMAL"] =
-        blocks.add_floats<3>(vertex_count(), [&](std::ptrdiff_t i) { return normals_.at(corner(i)); });
+        blocks.add_floats<3>(vertex_count(), [&](std::ptrdiff_t i) { return turned(normals_.at(corner(i))); });
     if (uv_.attribute != nullptr) {
       attributes["TEXCOORD_0"] = blocks.add_floats<2>(vertex_count(), [&](std::ptrdiff_t i) {
         const Eigen::RowVector2d uv = value<2>(uv_, corner(i), 0.0);
@@ -154,15 +159,15 @@ class SurfaceModel {
       targets.emplace_back();
       const Points& moved = morph_->displacements[i];
       targets[i]["POSITION"] = blocks.add_floats<3>(vertex_count(), [&](std::ptrdiff_t v) {
-        return Eigen::RowVector3d(moved.row(mesh_.face_vertices[corners_.corner_of_vertex[v]]));
+        return turned(moved.row(mesh_.face_vertices[corners_.corner_of_vertex[v]]));
       });
       blocks.add_bounds(targets[i]["POSITION"]);
       if (morph_->normals.empty()) continue;
-      const Values& turned = morph_->normals[i];
-      const bool at_vertices = turned.rows() == mesh_.vertex_count();
+      const Values& rotated = morph_->normals[i];
+      const bool at_vertices = rotated.rows() == mesh_.vertex_count();
       targets[i]["NORMAL"] = blocks.add_floats<3>(vertex_count(), [&](std::ptrdiff_t v) {
         const Index corner = corners_.corner_of_vertex[v];
-        return Eigen::RowVector3d(turned.row(at_vertices ? mesh_.face_vertices[corner] : corner));
+        return turned(rotated.row(at_vertices ? mesh_.face_vertices[corner] : corner));
       });
     }
     return targets;
@@ -240,7 +245,8 @@ class SurfaceModel {
     tinygltf::Node node;
     node.name = "surface";
     node.mesh = 0;
-    if (!frame_.origin.isZero(0.0)) node.translation = {frame_.origin[0], frame_.origin[1], frame_.origin[2]};
+    const Eigen::RowVector3d origin = turned(frame_.origin);
+    if (!origin.isZero(0.0)) node.translation = {origin[0], origin[1], origin[2]};
     model_.nodes.push_back(node);
     model_.scenes.emplace_back();
     model_.scenes[0].nodes = {0};
@@ -250,6 +256,7 @@ class SurfaceModel {
   }
 
   const Mesh& mesh_;
+  const Eigen::Matrix3d turned_;
   const MorphTargets* morph_;  ///< may be null
   Buffer<std::uint8_t> hidden_;
   FloatFrame frame_;
@@ -262,8 +269,8 @@ class SurfaceModel {
 
 }  // namespace
 
-void write_glb(OutputFile& file, const Mesh& mesh, const MorphTargets* targets) {
-  const SurfaceModel surface(file.name(), mesh, targets);
+void write_glb(OutputFile& file, const Mesh& mesh, UpAxis up, const MorphTargets* targets) {
+  const SurfaceModel surface(file.name(), mesh, up, targets);
   FileStream bytes(file);
   std::ostream stream(&bytes);
   stream.exceptions(std::ios::badbit);

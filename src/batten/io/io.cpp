@@ -18,14 +18,25 @@ struct Format {
   /// Null for formats that are only written.
   Mesh (*read)(const io::Source& source);
   /// Null for formats that are only read.
-  void (*write)(io::OutputFile& file, const Mesh& mesh, io::Encoding encoding);
+  void (*write)(io::OutputFile& file, const Mesh& mesh, const WriteOptions& options);
+  /// What its programs mostly use.
+  UpAxis usual_up;
 };
 
-void write_glb(io::OutputFile& file, const Mesh& mesh, io::Encoding /*encoding*/) {
+UpAxis up_axis_to_write(const Mesh& mesh, UpAxis up) {
+  return up == UpAxis::Auto ? guess_up_axis(mesh, UpAxis::Y) : up;
+}
+
+io::Encoding encoding_of(const WriteOptions& options) {
+  return options.binary ? io::Encoding::Binary : io::Encoding::Text;
+}
+
+void write_glb(io::OutputFile& file, const Mesh& mesh, const WriteOptions& options) {
 #ifdef BATTEN_WITH_GLTF
-  io::write_glb(file, mesh);
+  io::write_glb(file, mesh, up_axis_to_write(mesh, options.up));
 #else
   (void)mesh;
+  (void)options;
   throw Error(ErrorCode::NotAvailable,
               file.name() + ": this build writes no GLB; configure with BATTEN_WITH_GLTF=ON, or write obj or usda");
 #endif
@@ -40,14 +51,29 @@ Mesh read_gltf(const io::Source& source) {
 }
 
 constexpr Format kFormats[] = {
-    {"obj", io::read_obj, [](io::OutputFile& file, const Mesh& mesh, io::Encoding) { io::write_obj(file, mesh); }},
-    {"ply", io::read_ply, io::write_ply},
-    {"off", io::read_off, [](io::OutputFile& file, const Mesh& mesh, io::Encoding) { io::write_off(file, mesh); }},
-    {"stl", io::read_stl, io::write_stl},
-    {"xyz", io::read_xyz, [](io::OutputFile& file, const Mesh& mesh, io::Encoding) { io::write_xyz(file, mesh); }},
-    {"glb", read_gltf, write_glb},
-    {"gltf", read_gltf, nullptr},
-    {"usda", nullptr, [](io::OutputFile& file, const Mesh& mesh, io::Encoding) { io::write_usda(file, mesh); }},
+    {"obj", io::read_obj,
+     [](io::OutputFile& file, const Mesh& mesh, const WriteOptions&) { io::write_obj(file, mesh); }, UpAxis::Y},
+    {"ply", io::read_ply,
+     [](io::OutputFile& file, const Mesh& mesh, const WriteOptions& options) {
+       io::write_ply(file, mesh, encoding_of(options));
+     },
+     UpAxis::Y},
+    {"off", io::read_off,
+     [](io::OutputFile& file, const Mesh& mesh, const WriteOptions&) { io::write_off(file, mesh); }, UpAxis::Y},
+    {"stl", io::read_stl,
+     [](io::OutputFile& file, const Mesh& mesh, const WriteOptions& options) {
+       io::write_stl(file, mesh, encoding_of(options));
+     },
+     UpAxis::Z},
+    {"xyz", io::read_xyz,
+     [](io::OutputFile& file, const Mesh& mesh, const WriteOptions&) { io::write_xyz(file, mesh); }, UpAxis::Z},
+    {"glb", read_gltf, write_glb, UpAxis::Y},
+    {"gltf", read_gltf, nullptr, UpAxis::Y},
+    {"usda", nullptr,
+     [](io::OutputFile& file, const Mesh& mesh, const WriteOptions& options) {
+       io::write_usda(file, mesh, up_axis_to_write(mesh, options.up));
+     },
+     UpAxis::Y},
 };
 
 /// The extension in lower case and without the dot.
@@ -90,6 +116,12 @@ Mesh read_bytes(const Format& format, io::Source source) {
 
 }  // namespace
 
+UpAxis find_up_axis(const Mesh& mesh, const std::string& format) {
+  const Format& known = find_format(format, format);
+  const bool is_certain = known.read == read_gltf;
+  return is_certain ? known.usual_up : guess_up_axis(mesh, known.usual_up);
+}
+
 std::string file_format(const std::string& path, const std::string& wish) { return find_format(path, wish).extension; }
 
 Mesh read_mesh(const std::string& path, const std::string& format, const Progress& progress,
@@ -125,7 +157,7 @@ void write_mesh(const std::string& path, const Mesh& mesh, const WriteOptions& o
   io::require_writable(name, mesh);
   write_atomically(path, [&](const std::string& target) {
     io::OutputFile file(target, name, progress);
-    known.write(file, mesh, options.binary ? io::Encoding::Binary : io::Encoding::Text);
+    known.write(file, mesh, options);
     file.close();
   });
 }

@@ -38,6 +38,7 @@
 #include <vector>
 
 #include "batten/mesh/mesh.h"
+#include "batten/mesh/up_axis.h"
 #include "batten/output.h"
 
 namespace batten {
@@ -57,11 +58,18 @@ Mesh read_mesh(const std::string& path, const std::string& format = "", const Pr
 /// without a dot; that before a .gz. Throws Error(UnknownFormat).
 std::string file_format(const std::string& path, const std::string& wish = "");
 
+/// The up axis of a mesh from a file of this format (a name of file_format): Y for glb and gltf, whose format says so.
+/// Otherwise guess_up_axis, with the axis that the format's programs mostly use as the usual one: Y for obj, ply and
+/// off, Z for stl and xyz.
+UpAxis find_up_axis(const Mesh& mesh, const std::string& format);
+
 /// Options of write_mesh.
 struct WriteOptions {
   std::string format;  ///< "obj", "ply", "off", "stl", "xyz", "glb", "usda"; empty for the path's extension
   /// PLY and STL: little-endian bytes; otherwise text with the fewest digits that read back exactly.
   bool binary = true;
+  /// GLB and USDA: the mesh's up axis. Auto: find_up_axis without a format, that is guess_up_axis(mesh, UpAxis::Y).
+  UpAxis up = UpAxis::Y;
 };
 
 /// Writes everything that the format can hold, as doubles that read back bit for bit.
@@ -76,13 +84,14 @@ struct WriteOptions {
 ///   GLB   triangles in float, for display: corners with equal "uv", "normal" and "color" share a vertex, v is turned
 ///         to point down, colours (taken as sRGB, in [0, 1]) become linear, and each usemtl is a primitive with a
 ///         material of that name. Normals have unit length; missing and zero ones are the mean of the faces' by area.
-///         Holes are left out. Axes are not exchanged. If the points are farther from the origin than their own size,
-///         the node has a translation, so that floats are precise enough. Takes twice the memory of the file besides
-///         the mesh.
+///         Holes are left out. glTF has y up and the
+///         front at +z: a mesh with another up axis is turned so (to_y_up), which changes no digit. If the points are
+///         farther from the origin than their own size, the node has a translation, so that floats are precise enough.
+///         Takes twice the memory of the file besides the mesh.
 ///   USDA  a subdivision surface with all its tags, every attribute, and usemtl as GeomSubsets. Coordinates have all
-///         digits of a double although USD's type is float, and a translation as in GLB. A mesh with normals and
-///         without any choice about a surface (scheme, rule, tag or hole) is written as polygons (subdivisionScheme
-///         "none").
+///         digits of a double although USD's type is float, and a translation as in GLB. upAxis is Y or Z; for the
+///         other axes a transform turns the mesh to Y. A mesh with normals and without any choice about a surface
+///         (scheme, rule, tag or hole) is written as polygons (subdivisionScheme "none").
 ///
 /// If anything fails, an existing file stays unchanged (write_atomically). "-" writes to standard output.
 /// Throws Error(FileNotWritable, UnknownFormat (also for .gz), Cancelled), and for a mesh that no reader would accept

@@ -26,8 +26,8 @@ void require_uniform_creases(const std::string& name, const Mesh& mesh) {
 
 class UsdaMesh {
  public:
-  UsdaMesh(OutputFile& file, const Mesh& mesh)
-      : mesh_(mesh), name_(file.name()), frame_(float_frame(name_, mesh.points)), out_(file) {
+  UsdaMesh(OutputFile& file, const Mesh& mesh, UpAxis up)
+      : mesh_(mesh), up_(up), name_(file.name()), frame_(float_frame(name_, mesh.points)), out_(file) {
     for (const Attribute& attribute : mesh.attributes) require_finite(name_, {&attribute});
     require_uniform_creases(name_, mesh);
     std::ptrdiff_t rows =
@@ -44,7 +44,7 @@ class UsdaMesh {
     out_.line("    defaultPrim = \"surface\"");
     out_.line("    doc = \"Written by Batten\"");
     out_.line("    metersPerUnit = 1");
-    out_.line("    upAxis = \"Y\"");
+    out_.line(std::string("    upAxis = ") + (up_ == UpAxis::Z ? "\"Z\"" : "\"Y\""));
     out_.line(")\n");
     out_.open("def Mesh \"surface\"");
     write_faces();
@@ -82,11 +82,31 @@ class UsdaMesh {
     out_.array("float3[] extent", mesh_.vertex_count() > 0 ? 2 : 0, [&](TextBuffer& out, std::ptrdiff_t i) {
       UsdaWriter::put_tuple(out, i == 0 ? frame_.low : frame_.high);
     });
-    if (frame_.origin.isZero(0.0)) return;
-    TextBuffer origin;
-    UsdaWriter::put_tuple(origin, frame_.origin);
-    out_.line("double3 xformOp:translate = " + std::string(origin.text()));
-    out_.line("uniform token[] xformOpOrder = [\"xformOp:translate\"]");
+    write_transform();
+  }
+
+  /// The last operation of the order comes first.
+  void write_transform() {
+    const bool turns = up_ != UpAxis::Y && up_ != UpAxis::Z;
+    const bool moves = !frame_.origin.isZero(0.0);
+    if (turns) {
+      const Eigen::Matrix3d turned = to_y_up(up_);
+      TextBuffer rows;
+      for (int axis = 0; axis < 3; ++axis) {
+        rows.put(std::string_view(axis == 0 ? "( " : ", "));
+        UsdaWriter::put_tuple(rows, Eigen::RowVector4d(turned(0, axis), turned(1, axis), turned(2, axis), 0.0));
+      }
+      out_.line("matrix4d xformOp:transform = " + std::string(rows.text()) + ", (0, 0, 0, 1) )");
+    }
+    if (moves) {
+      TextBuffer origin;
+      UsdaWriter::put_tuple(origin, frame_.origin);
+      out_.line("double3 xformOp:translate = " + std::string(origin.text()));
+    }
+    if (!turns && !moves) return;
+    const std::string turn = turns ? "\"xformOp:transform\"" : "";
+    const std::string move = moves ? "\"xformOp:translate\"" : "";
+    out_.line("uniform token[] xformOpOrder = [" + turn + (turns && moves ? ", " : "") + move + "]");
   }
 
   void write_scheme() {
@@ -202,6 +222,7 @@ class UsdaMesh {
   }
 
   const Mesh& mesh_;
+  const UpAxis up_;
   const std::string& name_;
   FloatFrame frame_;
   UsdaWriter out_;
@@ -216,6 +237,6 @@ bool is_usda_polygonal(const Mesh& mesh) {
   return !has_word && corner_list(mesh, "normal").attribute != nullptr;
 }
 
-void write_usda(OutputFile& file, const Mesh& mesh) { UsdaMesh(file, mesh).write(); }
+void write_usda(OutputFile& file, const Mesh& mesh, UpAxis up) { UsdaMesh(file, mesh, up).write(); }
 
 }  // namespace batten::io

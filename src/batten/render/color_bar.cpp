@@ -23,10 +23,11 @@ struct Words {
 class BarLayout {
  public:
   BarLayout(const ColorScale& scale, int height, const PictureStyle& style)
-      : scale_(scale), unit_(height / 1200.0), ink_(text_ink(style)), measure_(1, 1, Canvas::Kind::Picture) {
+      : scale_(scale), unit_(unit_of(height, style)), ink_(text_ink(style)), measure_(1, 1, Canvas::Kind::Picture) {
     const double centre = 0.5 * height + 30 * unit_;
-    top_ = centre - 320 * unit_;
-    bottom_ = centre + 320 * unit_;
+    const double reach = std::clamp(0.5 * height - kWords * unit_, unit_, 320 * unit_);
+    top_ = centre - reach;
+    bottom_ = centre + reach;
     TextStyle title{30 * unit_, ink_, Align::Left, true};
     add({scale.title, {0.0, top_ - 132 * unit_}, title});
     add({scale.unit, {0.0, top_ - 92 * unit_}, {26 * unit_, soft()}});
@@ -62,16 +63,25 @@ class BarLayout {
   static constexpr double kEdge = 40;
   static constexpr double kArrow = 26;
 
+  static constexpr double kWords = 135;  // above the bar, and below it
+
+  /// A bar of 640 units, in a picture of 1200.
+  static double unit_of(int height, const PictureStyle& style) {
+    return style.text_size > 0.0 ? 34.0 * style.text_size / 1200.0 : height / 1200.0;
+  }
+
   Ink soft() const { return {ink_.red, ink_.green, ink_.blue, 0.72}; }
   bool reaches_above() const { return scale_.highest > scale_.high + 1e-9 * std::abs(scale_.high); }
   bool reaches_below() const { return scale_.lowest < scale_.low - 1e-9 * std::abs(scale_.low); }
   double level(double value) const { return bottom_ - scale_.position(value) * (bottom_ - top_); }
 
   std::vector<Tick> ticks() const {
-    if (scale_.log) return log_ticks(scale_.low, scale_.high, 7);
+    constexpr double kPerTick = 90;  // units
+    const int wanted = std::clamp(static_cast<int>((bottom_ - top_) / (kPerTick * unit_)), 2, 6);
+    if (scale_.log) return log_ticks(scale_.low, scale_.high, std::min(7, wanted + 1));
     const double range = scale_.high - scale_.low;
     std::vector<Tick> found =
-        linear_ticks(scale_.low, scale_.high, scale_.whole ? std::clamp(static_cast<int>(range), 1, 6) : 6);
+        linear_ticks(scale_.low, scale_.high, scale_.whole ? std::clamp(static_cast<int>(range), 1, wanted) : wanted);
     if (scale_.whole) std::erase_if(found, [](const Tick& tick) { return tick.value != std::round(tick.value); });
     return found;
   }

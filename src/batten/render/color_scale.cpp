@@ -52,10 +52,29 @@ void fit_log(std::vector<double>& values, double outliers, ColorScale& scale) {
   }
 }
 
+/// The ends of a bar with a middle, from the ends of the numbers; one side only if all numbers are there.
+void fit_diverging(double middle, ColorScale& scale) {
+  constexpr double kNear = 0.3;
+  const double above = scale.high - middle;
+  const double below = middle - scale.low;
+  if (below <= 0.0 && above > 0.0) {
+    scale.map = ColorMap::Warm;
+    if (-below < kNear * above) scale.low = middle;
+  } else if (above <= 0.0 && below > 0.0) {
+    scale.map = ColorMap::Cool;
+    if (-above < kNear * below) scale.high = middle;
+  } else {
+    const double reach = std::max(above, below);
+    scale.low = middle - reach;
+    scale.high = middle + reach;
+  }
+}
+
 }  // namespace
 
 Color map_color(ColorMap map, double position) {
   if (std::isnan(position)) return kMissing;
+  if (map == ColorMap::Cool) return between(kDiverging, 0.5 * std::clamp(position, 0.0, 1.0));
   if (map == ColorMap::Sequential) return between(kSequential, position);
   return between(kDiverging, map == ColorMap::Warm ? 0.5 + 0.5 * std::clamp(position, 0.0, 1.0) : position);
 }
@@ -89,17 +108,14 @@ ColorScale fit_color_scale(const Eigen::Ref<const Scalars>& values, const ScaleR
   scale.low = quantile(finite, request.outliers);
   scale.high = quantile(finite, 1.0 - request.outliers);
   if (request.map != ColorMap::Diverging && scale.lowest >= 0.0 && scale.low < 0.3 * scale.high) scale.low = 0.0;
-  if (request.map == ColorMap::Diverging) {
-    const double reach = std::max(scale.high - request.middle, request.middle - scale.low);
-    scale.low = request.middle - reach;
-    scale.high = request.middle + reach;
-  }
+  if (request.map == ColorMap::Diverging) fit_diverging(request.middle, scale);
   // The bar must have a length. Differences due to rounding do not count.
+  const bool both_sides = scale.map == ColorMap::Diverging;
   const double size = std::max({std::abs(scale.low), std::abs(scale.high), std::numeric_limits<double>::min()});
   if (!(scale.high - scale.low > 1e-9 * size)) {
     const double reach = request.whole || scale.high == 0.0 ? 1.0 : 0.5 * std::abs(scale.high);
     const double centre = scale.high;
-    scale.low = request.map != ColorMap::Diverging && centre >= 0.0 ? std::max(0.0, centre - reach) : centre - reach;
+    scale.low = !both_sides && centre >= 0.0 ? std::max(0.0, centre - reach) : centre - reach;
     scale.high = centre + reach;
   }
   return scale;

@@ -11,7 +11,8 @@ namespace batten {
 enum class ColorMap {
   Sequential,  ///< viridis (Smith and van der Walt 2015): dark violet for small, yellow for large numbers
   Diverging,   ///< cool to warm (Moreland 2009, key M09): blue below the middle, grey at it, red above
-  Warm         ///< the upper half of Diverging: grey for zero, red for large numbers
+  Warm,        ///< the upper half of Diverging: grey for small, red for large numbers
+  Cool         ///< the lower half of Diverging: blue for small (far below zero), grey for large numbers
 };
 
 /// The colour at a position in [0, 1]; grey for NaN.
@@ -38,7 +39,9 @@ struct ScaleRequest {
   std::string title;
   std::string unit;
   ColorMap map = ColorMap::Sequential;
-  double middle = 0.0;  ///< Diverging: the number in the middle of the bar, which extends equally far to both sides
+  /// Diverging: the number in the middle of the bar, which extends equally far to both sides. If all numbers lie on
+  /// one side of it, the bar covers them alone, from the middle if they start near it, and is Warm or Cool.
+  double middle = 0.0;
   bool log = false;  ///< Sequential: over at most six powers of ten below the high end; linear if no number is positive
   bool whole = false;
   double outliers = 0.0;  ///< the share of the numbers that may lie beyond each end of the bar
@@ -51,6 +54,7 @@ ColorScale fit_color_scale(const Eigen::Ref<const Scalars>& values, const ScaleR
 /// The bar with its title, unit and ticks for a picture of this height; its width follows the text. If numbers lie
 /// beyond an end, that end is an arrow with the extreme number beside it. Throws Error(BadArgument) for a height below
 /// 16 or above 32768.
+/// The words have the size of the style, and the bar what room they leave.
 Picture draw_color_bar(const ColorScale& scale, int height, const PictureStyle& style = {});
 
 }  // namespace batten

@@ -139,6 +139,10 @@ void check_scene(const Scene& scene) {
     throw Error(ErrorCode::BadShape, "the scalars must be empty or one number a vertex of the surface (" +
                                          std::to_string(scene.surface.vertex_count()) + "), not " +
                                          std::to_string(scene.scalars.size()));
+  if (scene.line_scalars.size() > 0 && scene.line_scalars.size() != scene.lines.face_count())
+    throw Error(ErrorCode::BadShape, "the lines' scalars must be empty or one number a face of the lines (" +
+                                         std::to_string(scene.lines.face_count()) + "), not " +
+                                         std::to_string(scene.line_scalars.size()));
   if (scene.marker_scalars.size() > 0 && scene.marker_scalars.size() != scene.markers.rows())
     throw Error(ErrorCode::BadShape, "the markers' scalars must be empty or one number a marker (" +
                                          std::to_string(scene.markers.rows()) + "), not " +

@@ -7,10 +7,10 @@
 
 namespace batten::render_detail {
 
-/// A number for each pixel. Those of the shape come first and are means over its own samples; those of the ground
-/// follow.
+/// A number for each pixel. Those from NormalX to SkySeen are means over the samples that hit the surface.
 enum class Plane {
-  Coverage,  ///< the share of the pixel's samples that hit the shape
+  Coverage,  ///< the share of the pixel's samples that hit the surface, a marker or a line
+  Solid,     ///< the share that hit the surface, also behind a marker or a line
   NormalX,
   NormalY,
   NormalZ,
@@ -26,6 +26,10 @@ enum class Plane {
   KeySeen,    ///< the share of the key light that is not blocked
   KeyWeight,  ///< the share of samples for which it is known: 0 where the surface faces away from the light
   SkySeen,
+  GlowRed,  ///< the light that needs no lamp, as a mean over all of the pixel's samples: markers, lines, measured
+            ///< colours
+  GlowGreen,
+  GlowBlue,
   GroundWeight,  ///< the share of the pixel's samples that hit the ground near the shape
   GroundKeySeen,
   GroundSkySeen,

@@ -98,7 +98,7 @@ Light reflect(const Lamps& lamps, const Surfel& surfel, const Vec& direction) {
   const float power16 = power4 * power4 * power4 * power4;
   const float gloss = surfel.gloss * kGloss * power16 * power16 * std::min(1.0F, 8.0F * cosine);
   const float facing = std::clamp(1.0F + direction.dot(normal), 0.0F, 1.0F);
-  const float rim = kRim * facing * facing * facing * facing;
+  const float rim = surfel.gloss * kRim * facing * facing * facing * facing;
   const float height = 0.5F + 0.5F * normal.dot(lamps.up);
   const Vec sky = height * kSkyColor + (1.0F - height) * kBounceColor;
   const Vec fill = std::max(0.0F, normal.dot(lamps.fill)) * kFillColor;
@@ -106,6 +106,22 @@ Light reflect(const Lamps& lamps, const Surfel& surfel, const Vec& direction) {
   light.key = (cosine * surfel.albedo + Vec::Constant(gloss)).cwiseProduct(kKeyColor);
   light.ambient = surfel.albedo.cwiseProduct(sky + fill) + rim * sky;
   return light;
+}
+
+Light faint_light(const Lamps& lamps, const Surfel& surfel) {
+  constexpr float kKey = 0.07F;
+  constexpr float kSky = 0.03F;
+  return {kKey * lamps.key_cosine(surfel.normal) * surfel.albedo, kSky * surfel.albedo};
+}
+
+Vec lit_color(const Layers& layers, std::size_t pixel) {
+  const auto key = static_cast<std::size_t>(Plane::KeyRed);
+  const auto ambient = static_cast<std::size_t>(Plane::AmbientRed);
+  Vec lit;
+  for (std::size_t c = 0; c < 3; ++c)
+    lit[static_cast<Eigen::Index>(c)] = layers.planes[key + c][pixel] * layers.plane(Plane::KeySeen)[pixel] +
+                                        layers.planes[ambient + c][pixel] * layers.plane(Plane::SkySeen)[pixel];
+  return lit;
 }
 
 Vec sky_direction(const Vec& normal, float u, float v) {
@@ -148,13 +164,14 @@ void develop(const Layers& layers, const PictureStyle& style, Picture& picture) 
   picture.height = layers.height;
   picture.channels = static_cast<int>(channels);
   picture.pixels.resize(channels * width * static_cast<std::size_t>(layers.height));
-  const auto key = static_cast<std::size_t>(Plane::KeyRed);
-  const auto ambient = static_cast<std::size_t>(Plane::AmbientRed);
+  const auto glow = static_cast<std::size_t>(Plane::GlowRed);
   const auto at = [&](Plane plane, std::size_t i) { return layers.plane(plane)[i]; };
   parallel_for_each(layers.height, [&](std::ptrdiff_t y) {
     for (std::size_t i = static_cast<std::size_t>(y) * width; i < (static_cast<std::size_t>(y) + 1) * width; ++i) {
       const float coverage = at(Plane::Coverage, i);
       const float ground = at(Plane::GroundWeight, i);
+      const float solid = at(Plane::Solid, i);
+      const Vec lit = solid > 0.0F ? lit_color(layers, i) : Vec(Vec::Zero());
       const float seen =
           kGroundKeyShare * at(Plane::GroundKeySeen, i) + (1.0F - kGroundKeyShare) * at(Plane::GroundSkySeen, i);
       unsigned char* pixel = picture.pixels.data() + channels * i;
@@ -162,14 +179,12 @@ void develop(const Layers& layers, const PictureStyle& style, Picture& picture) 
       for (std::size_t c = 0; c < 3; ++c) {
         const float shade = 1.0F - (1.0F - kGroundShadow[static_cast<Eigen::Index>(c)]) * (1.0F - seen);
         const float left = 1.0F - coverage - ground * (1.0F - shade);
-        const float shape = coverage > 0.0F ? tone(layers.planes[key + c][i] * at(Plane::KeySeen, i) +
-                                                   layers.planes[ambient + c][i] * at(Plane::SkySeen, i))
-                                            : 0.0F;
+        const float shape = solid * tone(lit[static_cast<Eigen::Index>(c)]) + layers.planes[glow + c][i];
         if (style.transparent) {
           opacity += shadow_opacity(style.background[c], coverage, left) / 3.0F;
-          pixel[c] = bytes(shape);
+          pixel[c] = bytes(coverage > 0.0F ? shape / coverage : 0.0F);
         } else {
-          pixel[c] = bytes(style.background[c] * left + coverage * shape);
+          pixel[c] = bytes(style.background[c] * left + shape);
         }
       }
       if (style.transparent) set_alpha(pixel, coverage, opacity);

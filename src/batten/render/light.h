@@ -12,9 +12,10 @@ struct Surfel {
   Vec position;
   Vec origin;  ///< the start of its shadow rays: not on the facets but on the round surface that the normals describe
   Vec normal;  ///< for shading; on the eye's side
-  Vec geometric;  ///< of the facet; on the eye's side
+  Vec geometric;         ///< of the facet; on the eye's side
+  bool is_back = false;  ///< the eye sees the facet's back side
   Vec albedo;
-  float gloss = 1.0F;  ///< relative to the usual gloss
+  float gloss = 1.0F;  ///< the share of the usual highlights and of the usual rim
 };
 
 struct Lamps {
@@ -39,6 +40,12 @@ struct Light {
 
 /// Diffuse reflection and a soft gloss in the direction -direction.
 Light reflect(const Lamps& lamps, const Surfel& surfel, const Vec& direction);
+
+/// At most a tenth of the albedo, without any colour of the lamps: the shading of colours that are to be read.
+Light faint_light(const Lamps& lamps, const Surfel& surfel);
+
+/// The light of a pixel in each colour, before the tone curve: what the lamps send, as far as it is not blocked.
+Vec lit_color(const Layers& layers, std::size_t pixel);
 
 /// A cosine-weighted direction around the normal for (u, v) in the unit square.
 Vec sky_direction(const Vec& normal, float u, float v);

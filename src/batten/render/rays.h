@@ -8,31 +8,42 @@
 
 namespace batten::render_detail {
 
-/// Centre and radius. Two consecutive ones are the ends of a tube.
+/// Centre and radius, in the frame's unit. Two consecutive ones are the ends of a tube.
 struct Ball {
   Vec centre;
   float radius;
 };
 
+enum class Part : unsigned { Surface = 0, Markers = 1, Lines = 2 };
+
+/// What is drawn with the surface.
 struct Overlay {
+  float marker_radius = 0.0F;
+  float line_radius = 0.0F;
   Buffer<Ball> markers;
   Buffer<Ball> tubes;
+  Buffer<float> line_levels;  ///< a position on the colour scale for each tube (NaN: the line's colour), or empty
+
+  bool empty() const { return markers.empty() && tubes.empty(); }
+  float radius(Part part) const { return part == Part::Lines ? line_radius : marker_radius; }
 };
-
-/// The markers and lines, with the radii that RenderOptions::marker_radius specifies.
-Overlay overlay_of(const Scene& scene, const Frame& frame, const RenderOptions& options);
-
-enum class Part : unsigned { Surface = 0, Markers = 1, Lines = 2 };
 
 inline constexpr int kPacket = 16;
 
-/// Refers to the triangles and the overlay, which must outlive it.
+/// Refers to the triangles and to the buffers of the overlay, which must outlive it.
 class Rays {
  public:
-  Rays(const Triangles& triangles, const Overlay& overlay);
+  explicit Rays(const Triangles& triangles);
+
+  /// Replaces the overlay.
+  void show(const Overlay& overlay);
+
+  bool has_surface() const { return has_surface_; }
+  bool has_overlay() const { return has_overlay_; }
 
   /// Finds the nearest hit for each lane whose `valid` is -1. geomID is then a Part, or RTC_INVALID_GEOMETRY_ID.
-  void intersect(const int* valid, RTCRayHit16& rays) const;
+  void meet_surface(const int* valid, RTCRayHit16& rays) const;
+  void meet_overlay(const int* valid, RTCRayHit16& rays) const;
 
   /// Makes tfar negative where the surface blocks the ray before it.
   void occlude(const int* valid, RTCRay16& rays) const;

@@ -1,9 +1,10 @@
 #include "batten/render/render.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "batten/error.h"
-#include "batten/parallel/parallel.h"
+#include "batten/render/srgb.h"
 #include "batten/render/tracer.h"
 
 namespace batten {
@@ -30,6 +31,37 @@ void check_scenes(const std::vector<const Scene*>& scenes, const RenderOptions& 
   for (const Scene* scene : scenes) check_scene(*scene);
 }
 
+float median(std::vector<float>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The exposure at which the median of the surface, were it white, is white in each colour; from a small picture.
+Vec measure_exposure(const Eye& eye, RenderOptions options, const Rays& rays, const Lamps& lamps, Paint paint) {
+  constexpr int kSide = 200;
+  constexpr float kLeast = 0.2F;
+  constexpr float kMost = 5.0F;
+  const int side = std::max({eye.width, eye.height, kSide});
+  const Eye small{eye.camera, std::max(1, eye.width * kSide / side), std::max(1, eye.height * kSide / side)};
+  options.samples = 1;
+  options.ground = Ground::None;
+  paint.whiten();
+  Layers layers(small.width, small.height);
+  Tracer(small, options, rays, Overlay(), lamps, paint).trace(layers, {});
+  smooth_light(layers, small.pixel_size());
+  std::array<std::vector<float>, 3> light;
+  for (std::size_t i = 0; i < layers.plane(Plane::Solid).size(); ++i) {
+    if (layers.plane(Plane::Solid)[i] < 1.0F) continue;
+    const Vec lit = lit_color(layers, i);
+    for (std::size_t c = 0; c < 3; ++c) light[c].push_back(lit[static_cast<Eigen::Index>(c)]);
+  }
+  Vec exposure = Vec::Ones();
+  for (std::size_t c = 0; c < 3 && !light[c].empty(); ++c)
+    exposure[static_cast<Eigen::Index>(c)] = std::clamp(1.0F / std::max(median(light[c]), 1e-3F), kLeast, kMost);
+  return exposure;
+}
+
 void report(const Progress& progress, double done) {
   if (progress && !progress(done)) throw Error(ErrorCode::Cancelled, "the picture was cancelled");
 }
@@ -46,28 +78,42 @@ std::vector<Viewpoint> turntable(const std::vector<const Scene*>& scenes, const 
   return turned_viewpoints(scenes, options, count);
 }
 
-Picture render(const Scene& scene, const RenderOptions& options, const Progress& progress) {
+PictureStyle style_beside(const Scene& scene, PictureStyle style) {
+  constexpr Color kGrey{0.50F, 0.50F, 0.50F};
+  constexpr float kStep = 0.08F;  // of sRGB's range
+  constexpr double kMostNear = 0.05;
+  Eigen::Index near = 0;
+  for (Eigen::Index i = 0; i < scene.colors.rows(); ++i) {
+    float most = 0.0F;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float color = encode_srgb(static_cast<float>(scene.colors(i, static_cast<Eigen::Index>(c))));
+      most = std::max(most, std::abs(color - encode_srgb(style.background[c])));
+    }
+    near += most < kStep ? 1 : 0;
+  }
+  if (static_cast<double>(near) > kMostNear * static_cast<double>(scene.colors.rows())) style.background = kGrey;
+  return style;
+}
+
+Picture render(const Scene& scene, const RenderOptions& options, const Progress& progress,
+               std::vector<std::string>* notes) {
   check_options(options);
   check_scene(scene);
   report(progress, 0.0);
   const Frame frame = frame_of({&scene});
-  const Camera camera = camera_of(scene, frame, options);
+  const Eye eye{camera_of(scene, frame, options), options.width, options.height};
   const Triangles triangles = triangles_of(scene, frame);
-  const Overlay overlay = overlay_of(scene, frame, options);
   report(progress, 0.1);
-  const Rays rays(triangles, overlay);
-  const Tracer tracer(scene, options, triangles, rays, camera);
+  Rays rays(triangles);
+  const Lamps lamps(eye.camera);
+  Paint paint(scene, options, triangles, lamps);
+  if (!triangles.colors.empty()) paint.expose(measure_exposure(eye, options, rays, lamps, paint));
+  const Overlay overlay = show_overlay(scene, frame, options, eye, rays, notes);
   Layers layers(options.width, options.height);
-  const int across = (options.width + Tracer::kSquare - 1) / Tracer::kSquare;
-  const int down = (options.height + Tracer::kSquare - 1) / Tracer::kSquare;
-  for (int row = 0; row < down; ++row) {
-    report(progress, 0.3 + 0.6 * row / down);
-    parallel_for_each(across, [&](std::ptrdiff_t column) {
-      tracer.trace_square(static_cast<int>(column) * Tracer::kSquare, row * Tracer::kSquare, layers);
-    });
-  }
+  const Tracer tracer(eye, options, rays, overlay, lamps, paint);
+  tracer.trace(layers, [&](double done) { return !progress || progress(0.3 + 0.6 * done); });
   report(progress, 0.9);
-  smooth_light(layers, 2.0F * camera.tangent_y * camera.eye.norm() / static_cast<float>(options.height));
+  smooth_light(layers, eye.pixel_size());
   Picture picture;
   develop(layers, options.style, picture);
   report(progress, 1.0);

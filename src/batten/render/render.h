@@ -8,16 +8,20 @@
 #pragma once
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "batten/mesh/mesh.h"
+#include "batten/mesh/up_axis.h"
 #include "batten/render/color_scale.h"
 #include "batten/render/picture.h"
 
 namespace batten {
 
 /// The content of a picture. `surface` is drawn as it is (refine it first), the rest is drawn with it. Each part may be
-/// empty, but not all. Markers and lines cast no shadow.
+/// empty, but not all. Markers and lines have flat colours and cast no shadow; the parts of lines behind the surface
+/// are faint. Given colours come out as they are where the light is ordinary: the median over the picture is exact, and
+/// half of each colour does not depend on the light. `scalars` are drawn in the bar's colours, at most a tenth darker.
 struct Scene {
   Mesh surface;  ///< polygons; those of more than three corners are drawn as fans. Holes are not drawn
   /// V-by-3 shading normals, or one row for each entry of surface.face_vertices. Empty: computed from the faces and
@@ -26,25 +30,22 @@ struct Scene {
   Values colors;    ///< V-by-3 linear colours, or empty for surface_color
   Scalars scalars;  ///< V numbers drawn in `scale`'s colours (NaN: grey), or empty
   ColorScale scale;
-  Points markers = Points(0, 3);  ///< drawn as small spheres, for example the targets
+  Points markers = Points(0, 3);  ///< drawn as dots, for example the targets
   Scalars marker_scalars;         ///< a number for each marker, drawn likewise, or empty for marker_color
-  Mesh lines;                     ///< its edges are drawn as thin tubes, for example the control mesh
+  Mesh lines;  ///< its edges are drawn as thin lines, for example the control mesh; faces may have two corners
+  Scalars line_scalars;  ///< a number for each face of `lines`, drawn in `scale`'s colours (NaN: line_color), or empty
   Color surface_color{0.60F, 0.335F, 0.140F};
   Color back_color{0.27F, 0.31F, 0.35F};  ///< of the back sides of faces
   Color marker_color{0.018F, 0.040F, 0.115F};
   Color line_color{0.030F, 0.075F, 0.190F};
 };
 
-/// The up direction. Auto is z, or y if the shape stands more steadily on its lowest y, or on neither. Steadiness is
-/// the area of the hull of everything near the bottom, as a share of the floor plan, if the centre of mass is above it.
-enum class UpAxis { Auto, Y, Z };
-
 /// The ground below the shape.
 enum class Ground { Shadow, None };
 
-/// The direction of the view. Auto: from the front (-y with z up, +z with y up), turned to the right by 25 to 60
-/// degrees (more for deeper shapes) and raised by 20 to 40 (more for flatter ones). Iso: equally from the front, the
-/// right and above. Left: from the shape's -x.
+/// The direction of the view. Auto: from the front of up_frame (-y with z up, +z with y up), turned to the right by 25
+/// to 40 degrees (more for deeper shapes) and raised by 20 to 40 (more for flatter ones); a flat mesh is seen along its
+/// normal. Iso: equally from the front, the right and above. Left: from the shape's -x with y or z up.
 enum class View { Auto, Front, Back, Left, Right, Top, Bottom, Iso };
 
 /// The shading of the surface. Zebra shows the reflection of light and dark bands. The bands break at edges, have kinks
@@ -56,23 +57,24 @@ struct Viewpoint {
   std::array<double, 3> target;     ///< the middle of the picture
   std::array<double, 3> direction;  ///< from the target to the eye, of length 1
   double distance;
-  UpAxis up;  ///< Y or Z
+  UpAxis up;  ///< not Auto
 };
 
 /// Options of render.
 struct RenderOptions {
   int width = 1600;
   int height = 1200;
-  int samples = 2;  ///< for each axis of a pixel: 2 means 2x2
-  UpAxis up = UpAxis::Auto;
+  int samples = 2;           ///< for each axis of a pixel: 2 means 2x2
+  UpAxis up = UpAxis::Auto;  ///< guess_up_axis of the first scene
   View view = View::Auto;
   std::optional<std::array<double, 3>> direction;  ///< from the centre to the eye, in the mesh's axes; overrides view
   std::optional<Viewpoint> viewpoint;              ///< overrides up, view and direction; nothing is fitted
   Shading shading = Shading::Plain;
   PictureStyle style;
   Ground ground = Ground::Shadow;
-  /// In the mesh's unit. 0: for n markers or lines, 14 % (lines 4 %) of the mean distance between n points spread over
-  /// the shape, at most 0.5 % (0.12 %) of its diagonal; more than 20 000 markers or 60 000 lines are then not drawn.
+  /// In the mesh's unit, and drawn whatever they cover. 0: by the picture's size, so that a line is 1/550 of its
+  /// shorter side wide and a dot 1/125, or twice that where they have numbers, and thinner, down to a pixel, if they
+  /// would cover more than a fifth of the surface. Those without numbers that still would are not drawn.
   double marker_radius = 0.0;
   double line_radius = 0.0;
 };
@@ -85,11 +87,16 @@ Viewpoint fit_viewpoint(const std::vector<const Scene*>& scenes, const RenderOpt
 /// view from straight above or below.
 std::vector<Viewpoint> turntable(const std::vector<const Scene*>& scenes, const RenderOptions& options, int count);
 
+/// The style, or with a grey background where more than 5 % of the scene's colours can hardly be told from the style's.
+PictureStyle style_beside(const Scene& scene, PictureStyle style);
+
 /// Draws a scene. The field of view is 30 degrees in height, and the shape is fitted into 85 % of the frame. With
 /// style.transparent the shadow is black, with the opacity that darkens the style's background equally.
-/// Cost: 1 M triangles at 1600x1200 in 3 s on two cores; memory: 110 bytes for each pixel and 200 for each triangle.
+/// Cost: 1 M triangles at 1600x1200 in 3 s on two cores; memory: 130 bytes for each pixel and 200 for each triangle.
 /// Throws Error: BadArgument (nothing to draw; sizes, samples or radii out of range), BadShape, IndexOutOfRange,
 /// NotFinite, Cancelled.
-Picture render(const Scene& scene, const RenderOptions& options = {}, const Progress& progress = {});
+/// notes: null, or gets a sentence for each kind of markers or lines that is not drawn.
+Picture render(const Scene& scene, const RenderOptions& options = {}, const Progress& progress = {},
+               std::vector<std::string>* notes = nullptr);
 
 }  // namespace batten

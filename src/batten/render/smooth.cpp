@@ -47,7 +47,7 @@ void add_shape(const Layers& layers, const Neighbours& n, float inverse_reach, R
   const float* qx = layers.row(Plane::PositionX, n.other) + n.shift;
   const float* qy = layers.row(Plane::PositionY, n.other) + n.shift;
   const float* qz = layers.row(Plane::PositionZ, n.other) + n.shift;
-  const float* coverage = layers.row(Plane::Coverage, n.other) + n.shift;
+  const float* solid = layers.row(Plane::Solid, n.other) + n.shift;
   const float* key = layers.row(Plane::KeySeen, n.other) + n.shift;
   const float* key_weight = layers.row(Plane::KeyWeight, n.other) + n.shift;
   const float* sky = layers.row(Plane::SkySeen, n.other) + n.shift;
@@ -65,7 +65,7 @@ void add_shape(const Layers& layers, const Neighbours& n, float inverse_reach, R
     const float like = same > 0.0F ? same : 0.0F;
     const float like2 = like * like;
     const float like8 = like2 * like2 * like2 * like2;
-    const float weight = n.weight * near * near * like8 * coverage[x];
+    const float weight = n.weight * near * near * like8 * solid[x];
     const float key_part = weight * key_weight[x];
     key_sum[x] += key_part * key[x];
     key_weight_sum[x] += key_part;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "batten/error.h"
+#include "batten/parallel/parallel.h"
 
 namespace batten::render_detail {
 namespace {
@@ -10,26 +12,9 @@ namespace {
 constexpr float kLift = 2e-4F;     // the distance from the surface at which shadow rays start
 constexpr float kSkyReach = 0.9F;  // objects beyond this distance do not block the sky
 constexpr float kGroundSkyReach = 0.6F;
-constexpr int kLevelColors = 1024;
-// With this albedo, a surface that faces the lights has exactly the colours of its bar.
-constexpr float kDataAlbedo = 0.66F;
-constexpr float kDataGloss = 0.25F;
 constexpr int kFrame = 8;  // pixels at the picture's edge that are exactly the background, whatever the smoothing does
+constexpr float kFade = 0.2F;  // the share of the picture over which shadows on the ground fade towards its edge
 constexpr float kEverywhere = 100.0F;  // beyond everything inside or near the unit sphere
-
-Vec to_vec(const Color& color) { return {color[0], color[1], color[2]}; }
-
-/// Moves a point of a facet towards the round surface that its corners' normals describe, if that is outside. This
-/// keeps shadows of the facets' own corners off the terminator (Hanika 2021).
-Vec round_origin(const Vec& point, const std::array<Vec, 3>& corners, const std::array<Vec, 3>& normals,
-                 const Vec& weights) {
-  Vec shift = Vec::Zero();
-  for (int i = 0; i < 3; ++i)
-    shift -= weights[i] *
-             std::min(0.0F, (point - corners[static_cast<std::size_t>(i)]).dot(normals[static_cast<std::size_t>(i)])) *
-             normals[static_cast<std::size_t>(i)];
-  return point + shift;
-}
 
 constexpr int kBlock = 8;  // the pattern of light rays covers a block of so many pixels in each direction
 
@@ -116,29 +101,16 @@ struct Square {
   int pixel(std::size_t sample, int samples) const { return static_cast<int>(sample) / samples; }
 };
 
-Tracer::Tracer(const Scene& scene, const RenderOptions& options, const Triangles& triangles, const Rays& rays,
-               const Camera& camera)
-    : triangles_(triangles),
+Tracer::Tracer(const Eye& eye, const RenderOptions& options, const Rays& rays, const Overlay& overlay,
+               const Lamps& lamps, const Paint& paint)
+    : eye_(eye),
       rays_(rays),
-      camera_(camera),
-      lamps_(camera),
-      width_(options.width),
-      height_(options.height),
+      overlay_(overlay),
+      lamps_(lamps),
+      paint_(paint),
       samples_(options.samples * options.samples),
-      has_ground_(options.ground == Ground::Shadow && triangles.count() > 0 &&
-                  camera.eye.dot(camera.world_up) > camera.ground_height),
-      zebra_(options.shading == Shading::Zebra),
-      surface_color_(to_vec(scene.surface_color)),
-      back_color_(to_vec(scene.back_color)),
-      marker_color_(to_vec(scene.marker_color)),
-      line_color_(to_vec(scene.line_color)) {
-  for (const double value : scene.marker_scalars)
-    marker_levels_.push_back(static_cast<float>(scene.scale.position(value)));
-  if (!triangles.levels.empty() || !marker_levels_.empty()) {
-    for (int i = 0; i < kLevelColors; ++i)
-      level_colors_.push_back(to_vec(map_color(scene.scale.map, i / (kLevelColors - 1.0))));
-    level_colors_.push_back(to_vec(map_color(scene.scale.map, std::numeric_limits<double>::quiet_NaN())));
-  }
+      has_ground_(options.ground == Ground::Shadow && rays.has_surface() &&
+                  eye.camera.eye.dot(eye.camera.world_up) > eye.camera.ground_height) {
   // A rotated grid, in which no two samples share a row or a column of the pixel.
   const float n = static_cast<float>(options.samples);
   for (int j = 0; j < options.samples; ++j) {
@@ -156,18 +128,24 @@ Tracer::Tracer(const Scene& scene, const RenderOptions& options, const Triangles
   }
 }
 
-Vec Tracer::direction(float x, float y) const {
-  const float across = (2.0F * x / static_cast<float>(width_) - 1.0F) * camera_.tangent_x;
-  const float up = (1.0F - 2.0F * y / static_cast<float>(height_)) * camera_.tangent_y;
-  return (camera_.forward + across * camera_.right + up * camera_.up).normalized();
+void Tracer::trace(Layers& layers, const Progress& progress) const {
+  const int across = (eye_.width + kSquare - 1) / kSquare;
+  const int down = (eye_.height + kSquare - 1) / kSquare;
+  for (int row = 0; row < down; ++row) {
+    if (progress && !progress(static_cast<double>(row) / down))
+      throw Error(ErrorCode::Cancelled, "the picture was cancelled");
+    parallel_for_each(across, [&](std::ptrdiff_t column) {
+      trace_square(static_cast<int>(column) * kSquare, row * kSquare, layers);
+    });
+  }
 }
 
 void Tracer::trace_square(int left, int top, Layers& layers) const {
   Square square;
   square.left = left;
   square.top = top;
-  square.width = std::min(kSquare, width_ - left);
-  square.height = std::min(kSquare, height_ - top);
+  square.width = std::min(kSquare, eye_.width - left);
+  square.height = std::min(kSquare, eye_.height - top);
   square.pixels.resize(static_cast<std::size_t>(square.width) * static_cast<std::size_t>(square.height));
   trace_eye_rays(square);
   trace_light_rays(square);
@@ -175,7 +153,7 @@ void Tracer::trace_square(int left, int top, Layers& layers) const {
     for (int x = 0; x < square.width; ++x) {
       PixelSums& sums = square.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(square.width) +
                                       static_cast<std::size_t>(x)];
-      const float count = sums[Plane::Coverage];
+      const float count = sums[Plane::Solid];
       const float lit = sums[Plane::KeyWeight];
       const float ground = sums[Plane::GroundWeight];
       const auto mean = [](float sum, float weight) { return weight > 0.0F ? sum / weight : 0.0F; };
@@ -187,10 +165,12 @@ void Tracer::trace_square(int left, int top, Layers& layers) const {
            ++p)
         sums.sums[p] = mean(sums.sums[p], count);
       sums[Plane::SkySeen] = mean(sums[Plane::SkySeen], count);
-      sums[Plane::Coverage] = count / static_cast<float>(samples_);
-      sums[Plane::GroundWeight] = ground / static_cast<float>(samples_);
+      const auto samples = static_cast<float>(samples_);
+      for (const Plane plane : {Plane::Coverage, Plane::Solid, Plane::GlowRed, Plane::GlowGreen, Plane::GlowBlue})
+        sums[plane] /= samples;
+      sums[Plane::GroundWeight] = ground / samples;
       const std::size_t at =
-          static_cast<std::size_t>(top + y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(left + x);
+          static_cast<std::size_t>(top + y) * static_cast<std::size_t>(eye_.width) + static_cast<std::size_t>(left + x);
       for (std::size_t p = 0; p < kPlaneCount; ++p) layers.planes[p][at] = sums.sums[p];
     }
   }
@@ -198,7 +178,8 @@ void Tracer::trace_square(int left, int top, Layers& layers) const {
 
 void Tracer::trace_eye_rays(Square& square) const {
   const std::size_t count = square.pixels.size() * static_cast<std::size_t>(samples_);
-  RTCRayHit16 rays;
+  RTCRayHit16 to_surface;
+  RTCRayHit16 to_overlay;
   std::array<Vec, kPacket> towards;
   alignas(64) int valid[kPacket];
   for (std::size_t begin = 0; begin < count; begin += kPacket) {
@@ -209,69 +190,78 @@ void Tracer::trace_eye_rays(Square& square) const {
       const Eigen::Vector2f& offset = offsets_[sample % static_cast<std::size_t>(samples_)];
       const int column = square.left + pixel % square.width;
       const int row = square.top + pixel / square.width;
-      towards[static_cast<std::size_t>(lane)] =
-          direction(static_cast<float>(column) + offset.x(), static_cast<float>(row) + offset.y());
-      const Vec& way = towards[static_cast<std::size_t>(lane)];
-      rays.ray.org_x[lane] = camera_.eye.x();
-      rays.ray.org_y[lane] = camera_.eye.y();
-      rays.ray.org_z[lane] = camera_.eye.z();
-      rays.ray.dir_x[lane] = way.x();
-      rays.ray.dir_y[lane] = way.y();
-      rays.ray.dir_z[lane] = way.z();
-      rays.ray.tnear[lane] = 0.0F;
-      rays.ray.tfar[lane] = std::numeric_limits<float>::infinity();
-      rays.ray.time[lane] = 0.0F;
-      rays.ray.mask[lane] = ~0U;
-      rays.ray.flags[lane] = 0;
+      Vec& way = towards[static_cast<std::size_t>(lane)];
+      way = eye_.direction(static_cast<float>(column) + offset.x(), static_cast<float>(row) + offset.y());
+      eye_.aim(to_surface, lane, way);
     }
-    rays_.intersect(valid, rays);
+    if (rays_.has_overlay()) to_overlay = to_surface;
+    rays_.meet_surface(valid, to_surface);
+    if (rays_.has_overlay()) rays_.meet_overlay(valid, to_overlay);
     for (int lane = 0; lane < kPacket && valid[lane] != 0; ++lane) {
       const std::size_t sample = begin + static_cast<std::size_t>(lane);
-      if (rays.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID) {
-        take_hit(square, sample, towards[static_cast<std::size_t>(lane)], rays, lane);
-      } else if (has_ground_) {
-        take_ground(square, sample, towards[static_cast<std::size_t>(lane)]);
+      const Vec& way = towards[static_cast<std::size_t>(lane)];
+      const float left = rays_.has_overlay() ? take_overlay(square, sample, to_overlay, to_surface, lane) : 1.0F;
+      if (to_surface.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID) {
+        take_surface(square, sample, way, to_surface, lane, left);
+      } else if (has_ground_ && left == 1.0F) {
+        take_ground(square, sample, way);
       }
     }
   }
 }
 
-void Tracer::take_hit(Square& square, std::size_t sample, const Vec& towards, const RTCRayHit16& rays, int lane) const {
-  const auto part = static_cast<Part>(rays.hit.geomID[lane]);
-  const Surfel surfel =
-      part == Part::Surface
-          ? surface_surfel(rays.hit.primID[lane], rays.hit.u[lane], rays.hit.v[lane], towards)
-          : overlay_surfel(part, rays.hit.primID[lane], camera_.eye + rays.ray.tfar[lane] * towards,
-                           Vec(rays.hit.Ng_x[lane], rays.hit.Ng_y[lane], rays.hit.Ng_z[lane]).normalized());
+float Tracer::take_overlay(Square& square, std::size_t sample, const RTCRayHit16& overlay, const RTCRayHit16& surface,
+                           int lane) const {
+  if (overlay.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) return 1.0F;
+  const auto part = static_cast<Part>(overlay.hit.geomID[lane]);
+  const bool over_surface = surface.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID;
+  const float behind = overlay.ray.tfar[lane] - surface.ray.tfar[lane];
+  const float opacity = over_surface ? overlay_opacity(part, behind, overlay_.radius(part)) : 1.0F;
+  PixelSums& sums = square.pixels[static_cast<std::size_t>(square.pixel(sample, samples_))];
+  sums.add(Plane::GlowRed, opacity * paint_.overlay_color(overlay_, part, overlay.hit.primID[lane]));
+  if (!over_surface) sums[Plane::Coverage] += 1.0F;
+  return 1.0F - opacity;
+}
+
+void Tracer::take_surface(Square& square, std::size_t sample, const Vec& towards, const RTCRayHit16& rays, int lane,
+                          float left) const {
+  const unsigned triangle = rays.hit.primID[lane];
+  const Surfel surfel = paint_.surfel(triangle, rays.hit.u[lane], rays.hit.v[lane], towards);
+  const Shine shine = paint_.shine(surfel, triangle, rays.hit.u[lane], rays.hit.v[lane], towards);
   const int pixel = square.pixel(sample, samples_);
-  const Light light = reflect(lamps_, surfel, towards);
   PixelSums& sums = square.pixels[static_cast<std::size_t>(pixel)];
   sums[Plane::Coverage] += 1.0F;
+  sums[Plane::Solid] += 1.0F;
   sums.add(Plane::NormalX, surfel.normal);
   sums.add(Plane::PositionX, surfel.position);
-  sums.add(Plane::KeyRed, light.key);
-  sums.add(Plane::AmbientRed, light.ambient);
+  sums.add(Plane::KeyRed, left * shine.lit.key);
+  sums.add(Plane::AmbientRed, left * shine.lit.ambient);
+  sums.add(Plane::GlowRed, left * shine.glow);
   square.shades.push_back({surfel.origin, surfel.normal, surfel.geometric, pixel, pattern_row(square, sample), -1.0F});
 }
 
 void Tracer::take_ground(Square& square, std::size_t sample, const Vec& towards) const {
-  const float fall = -towards.dot(camera_.world_up);
+  const float fall = -towards.dot(eye_.camera.world_up);
   if (fall <= 1e-4F) return;
-  const float distance = (camera_.eye.dot(camera_.world_up) - camera_.ground_height) / fall;
-  const Vec position = camera_.eye + distance * towards;
+  const float distance = (eye_.camera.eye.dot(eye_.camera.world_up) - eye_.camera.ground_height) / fall;
+  const Vec position = eye_.camera.eye + distance * towards;
   const int pixel = square.pixel(sample, samples_);
-  const float share = ground_share((position - camera_.ground_height * camera_.world_up).norm()) *
+  const float share = ground_share((position - eye_.camera.ground_height * eye_.camera.world_up).norm()) *
                       frame_share(square.left + pixel % square.width, square.top + pixel / square.width);
   if (share <= 0.0F) return;
   square.pixels[static_cast<std::size_t>(pixel)][Plane::GroundWeight] += 1.0F;
-  square.shades.push_back({position, camera_.world_up, camera_.world_up, pixel, pattern_row(square, sample), share});
+  square.shades.push_back(
+      {position, eye_.camera.world_up, eye_.camera.world_up, pixel, pattern_row(square, sample), share});
 }
 
 float Tracer::frame_share(int x, int y) const {
-  const int inside = std::min(std::min(x, width_ - 1 - x), std::min(y, height_ - 1 - y)) - kFrame;
-  const float t =
-      std::clamp(static_cast<float>(inside) / (0.12F * static_cast<float>(std::min(width_, height_))), 0.0F, 1.0F);
-  return t * t * (3.0F - 2.0F * t);
+  // The product over both directions has round corners, and no edge of a rectangle shows in the shadow.
+  const auto share = [](int place, int size) {
+    const auto inside = static_cast<float>(std::min(place, size - 1 - place) - kFrame);
+    const float t = std::clamp(inside / (kFade * static_cast<float>(size)), 0.0F, 1.0F);
+    return t * t * t * (t * (6.0F * t - 15.0F) + 10.0F);
+  };
+  return share(x, eye_.width) * share(y, eye_.height);
 }
 
 int Tracer::pattern_row(const Square& square, std::size_t sample) const {
@@ -320,57 +310,6 @@ void Tracer::trace_light_rays(Square& square) const {
     packet.add(*shade, towards, shade->ground_share >= 0.0F ? kGroundSkyReach : kSkyReach, sky_seen);
   }
   packet.flush(sky_seen);
-}
-
-Surfel Tracer::surface_surfel(unsigned triangle, float u, float v, const Vec& towards) const {
-  const std::size_t corner = 3 * static_cast<std::size_t>(triangle);
-  const Vec weights(1.0F - u - v, u, v);
-  std::array<Vec, 3> corners;
-  std::array<Vec, 3> normals;
-  Surfel surfel;
-  float level = 0.0F;
-  surfel.position = Vec::Zero();
-  surfel.normal = Vec::Zero();
-  surfel.albedo = triangles_.colors.empty() ? surface_color_ : Vec(Vec::Zero());
-  for (std::size_t i = 0; i < 3; ++i) {
-    const float weight = weights[static_cast<Eigen::Index>(i)];
-    const std::uint32_t vertex = triangles_.vertices[corner + i];
-    corners[i] = triangles_.points[vertex];
-    normals[i] = triangles_.normals[triangles_.normal_row(corner + i)];
-    surfel.position += weight * corners[i];
-    surfel.normal += weight * normals[i];
-    if (!triangles_.colors.empty()) surfel.albedo += weight * triangles_.colors[vertex];
-    if (!triangles_.levels.empty()) level += weight * triangles_.levels[vertex];
-  }
-  if (!triangles_.levels.empty()) {
-    surfel.albedo = kDataAlbedo * level_color(level);
-    surfel.gloss = kDataGloss;
-  }
-  surfel.geometric = (corners[1] - corners[0]).cross(corners[2] - corners[0]).stableNormalized();
-  const float facing = surfel.geometric.dot(towards) > 0.0F ? -1.0F : 1.0F;
-  if (facing < 0.0F) surfel.albedo = back_color_;
-  surfel.geometric *= facing;
-  const float length = surfel.normal.norm();
-  surfel.normal = length > 0.0F ? Vec(surfel.normal / length) : surfel.geometric;
-  // The given normals may point either way.
-  const float side = surfel.normal.dot(surfel.geometric) < 0.0F ? -1.0F : 1.0F;
-  surfel.normal *= side;
-  if (zebra_) surfel.albedo = zebra_albedo(lamps_, surfel.normal, towards);
-  for (Vec& normal : normals) normal *= normal.dot(surfel.geometric) < 0.0F ? -1.0F : 1.0F;
-  surfel.origin = round_origin(surfel.position, corners, normals, weights);
-  return surfel;
-}
-
-Vec Tracer::level_color(float level) const {
-  if (std::isnan(level)) return level_colors_.back();
-  const int place = std::clamp(static_cast<int>(std::lround(level * (kLevelColors - 1))), 0, kLevelColors - 1);
-  return level_colors_[static_cast<std::size_t>(place)];
-}
-
-Surfel Tracer::overlay_surfel(Part part, unsigned number, const Vec& position, const Vec& normal) const {
-  if (part == Part::Markers && !marker_levels_.empty())
-    return {position, position, normal, normal, kDataAlbedo * level_color(marker_levels_[number]), kDataGloss};
-  return {position, position, normal, normal, part == Part::Markers ? marker_color_ : line_color_};
 }
 
 }  // namespace batten::render_detail

@@ -34,87 +34,19 @@ void visit_points(const Scenes& scenes, std::size_t limit, const Visit& visit) {
   }
 }
 
-double turn(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
-  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-}
-
-/// The hull counter-clockwise, by Andrew's monotone chain.
-std::vector<Vector2d> convex_hull(std::vector<Vector2d> points) {
-  std::sort(points.begin(), points.end(),
-            [](const Vector2d& a, const Vector2d& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); });
-  std::vector<Vector2d> hull;
-  for (int side = 0; side < 2; ++side) {
-    const std::size_t floor = hull.size() + 1;
-    for (const Vector2d& point : points) {
-      while (hull.size() > floor && turn(hull[hull.size() - 2], hull.back(), point) <= 0.0) hull.pop_back();
-      hull.push_back(point);
-    }
-    if (!hull.empty()) hull.pop_back();
-    std::reverse(points.begin(), points.end());
-  }
-  return hull;
-}
-
-double area(const std::vector<Vector2d>& polygon) {
-  double twice = 0.0;
-  for (std::size_t i = 0; i < polygon.size(); ++i)
-    twice += turn(Vector2d::Zero(), polygon[i], polygon[(i + 1) % polygon.size()]);
-  return 0.5 * twice;
-}
-
-bool contains(const std::vector<Vector2d>& hull, const Vector2d& point) {
-  for (std::size_t i = 0; i < hull.size(); ++i) {
-    if (turn(hull[i], hull[(i + 1) % hull.size()], point) < 0.0) return false;
-  }
-  return hull.size() > 2;
-}
-
-/// The area of the shape's foot as a share of the floor plan, or 0 if the shape would fall over.
-double steadiness(const std::vector<Vector3d>& points, int axis) {
-  double lowest = std::numeric_limits<double>::infinity();
-  double highest = -lowest;
-  Vector2d centre = Vector2d::Zero();
-  std::vector<Vector2d> plan;
-  for (const Vector3d& point : points) {
-    lowest = std::min(lowest, point[axis]);
-    highest = std::max(highest, point[axis]);
-    plan.emplace_back(point[(axis + 1) % 3], point[(axis + 2) % 3]);
-    centre += plan.back() / static_cast<double>(points.size());
-  }
-  std::vector<Vector2d> foot;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i][axis] <= lowest + 0.03 * (highest - lowest)) foot.push_back(plan[i]);
-  }
-  const std::vector<Vector2d> base = convex_hull(std::move(foot));
-  const double whole = area(convex_hull(std::move(plan)));
-  return whole > 0.0 && contains(base, centre) ? area(base) / whole : 0.0;
-}
-
-/// The shape's own right, back and up. The eye is in front, and `back` points away from it.
-struct Axes {
-  Vector3d right;
-  Vector3d back;
-  Vector3d up;
-};
-
-Axes axes_of(UpAxis up) {
-  if (up == UpAxis::Y) return {Vector3d::UnitX(), -Vector3d::UnitZ(), Vector3d::UnitY()};
-  return {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
-}
-
-Vector3d default_view(const Frame& frame, const Axes& axes) {
+Vector3d default_view(const Frame& frame, const UpFrame& axes) {
   const Vector3d size = (frame.highest - frame.lowest).transpose() * frame.scale;
   const double width = std::abs(size.dot(axes.right));
   const double depth = std::abs(size.dot(axes.back));
   const double height = std::abs(size.dot(axes.up));
-  const double azimuth = std::clamp(35.0 + 20.0 * std::log2((depth + 0.05) / (width + 0.05)), 25.0, 60.0) * kRadians;
+  const double azimuth = std::clamp(35.0 + 20.0 * std::log2((depth + 0.05) / (width + 0.05)), 25.0, 40.0) * kRadians;
   const double flatness = 1.0 - std::min(1.0, 2.0 * height / std::hypot(width, depth));
   const double elevation = (20.0 + 20.0 * flatness) * kRadians;
   return std::cos(elevation) * (std::sin(azimuth) * axes.right - std::cos(azimuth) * axes.back) +
          std::sin(elevation) * axes.up;
 }
 
-Vector3d named_view(View view, const Frame& frame, const Axes& axes) {
+Vector3d named_view(View view, const Scenes& scenes, const Frame& frame, const UpFrame& axes) {
   switch (view) {
     case View::Front:
       return -axes.back;
@@ -133,11 +65,12 @@ Vector3d named_view(View view, const Frame& frame, const Axes& axes) {
     case View::Auto:
       break;
   }
-  return default_view(frame, axes);
+  const Vector3d normal = flat_normal(scenes, frame);
+  return normal.isZero(0.0) ? default_view(frame, axes) : normal;
 }
 
-Vector3d asked_view(const RenderOptions& options, const Frame& frame, const Axes& axes) {
-  if (!options.direction) return named_view(options.view, frame, axes);
+Vector3d asked_view(const RenderOptions& options, const Scenes& scenes, const Frame& frame, const UpFrame& axes) {
+  if (!options.direction) return named_view(options.view, scenes, frame, axes);
   const Vector3d view((*options.direction)[0], (*options.direction)[1], (*options.direction)[2]);
   if (!view.allFinite() || view.stableNorm() == 0.0)
     throw Error(ErrorCode::BadArgument, "the view must be a finite direction other than zero");
@@ -145,7 +78,7 @@ Vector3d asked_view(const RenderOptions& options, const Frame& frame, const Axes
 }
 
 /// The rows are the picture's right and up, and the direction to the eye.
-Eigen::Matrix3d view_axes(const Vector3d& view, const Axes& axes) {
+Eigen::Matrix3d view_axes(const Vector3d& view, const UpFrame& axes) {
   // Seen from straight above or below, the shape's back is at the top of the picture.
   const bool vertical = view.cross(axes.up).norm() < 1e-6;
   const Vector3d hint = vertical ? Vector3d(axes.back * (view.dot(axes.up) > 0.0 ? 1.0 : -1.0)) : axes.up;
@@ -180,26 +113,50 @@ constexpr double kNearest = 0.1;  // for a single point, which determines no dis
 
 }  // namespace
 
-UpAxis resolve_up(const Scenes& scenes, const Frame& frame, UpAxis asked) {
+UpAxis resolve_up(const Scenes& scenes, UpAxis asked) {
   if (asked != UpAxis::Auto) return asked;
-  std::vector<Vector3d> points;
-  visit_points(scenes, 50000, [&](const Eigen::RowVector3d& point) {
-    points.emplace_back(((point - frame.centre) * frame.scale).transpose());
+  const Scene& first = *scenes.front();
+  if (first.surface.face_count() > 0) return guess_up_axis(first.surface);
+  if (first.lines.face_count() > 0) return guess_up_axis(first.lines);
+  Mesh points;
+  points.points = first.markers;
+  return guess_up_axis(points);
+}
+
+Vector3d flat_normal(const Scenes& scenes, const Frame& frame) {
+  constexpr double kFlat = 1.0 / 500.0;  // the frame's diagonal is 2
+  Vector3d normal = Vector3d::Zero();
+  for (const Scene* scene : scenes) {
+    const Mesh& mesh = scene->surface;
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+      const Index* v = mesh.face_vertices.data() + mesh.face_offsets[f];
+      const Vector3d first = ((mesh.points.row(v[0]) - frame.centre) * frame.scale).transpose();
+      for (Index c = 1; c + 1 < mesh.face_size(f); ++c) {
+        const Vector3d a = ((mesh.points.row(v[c]) - frame.centre) * frame.scale).transpose() - first;
+        const Vector3d b = ((mesh.points.row(v[c + 1]) - frame.centre) * frame.scale).transpose() - first;
+        normal += a.cross(b);
+      }
+    }
+  }
+  if (!(normal.norm() > 1e-6)) return Vector3d::Zero();  // a closed mesh: the sides cancel
+  normal.normalize();
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -lowest;
+  visit_points(scenes, std::size_t{1} << 21, [&](const Eigen::RowVector3d& point) {
+    const double height = ((point - frame.centre) * frame.scale).dot(normal.transpose());
+    lowest = std::min(lowest, height);
+    highest = std::max(highest, height);
   });
-  const double on_y = steadiness(points, 1);
-  const double on_z = steadiness(points, 2);
-  constexpr double kTopples = 0.03;
-  if (on_y < kTopples && on_z < kTopples) return UpAxis::Y;
-  return on_y > 1.2 * on_z ? UpAxis::Y : UpAxis::Z;
+  return highest - lowest <= 2.0 * kFlat ? normal : Vector3d(Vector3d::Zero());
 }
 
 /// The closest viewpoint at which everything fits: each side of the frustum touches a point, or the two sides of the
 /// tighter direction do and the other direction is centred.
 Viewpoint fitted_viewpoint(const Scenes& scenes, const RenderOptions& options) {
   const Frame frame = frame_of(scenes);
-  const UpAxis up = resolve_up(scenes, frame, options.up);
-  const Axes axes = axes_of(up);
-  const Vector3d view = asked_view(options, frame, axes);
+  const UpAxis up = resolve_up(scenes, options.up);
+  const UpFrame axes = up_frame(up);
+  const Vector3d view = asked_view(options, scenes, frame, axes);
   const Eigen::Matrix3d to_view = view_axes(view, axes);
   const Vector2d tangents = kFill * tangents_of(options);
   const Eigen::Array4d reach = reach_of(scenes, frame, to_view, tangents);
@@ -212,9 +169,11 @@ Viewpoint fitted_viewpoint(const Scenes& scenes, const RenderOptions& options) {
 std::vector<Viewpoint> turned_viewpoints(const Scenes& scenes, const RenderOptions& options, int count) {
   if (count < 1) throw Error(ErrorCode::BadArgument, "a turntable needs at least one picture");
   const Frame frame = frame_of(scenes);
-  const UpAxis up = resolve_up(scenes, frame, options.up);
-  const Axes axes = axes_of(up);
-  const Vector3d first = asked_view(options, frame, axes);
+  const UpAxis up = resolve_up(scenes, options.up);
+  const UpFrame axes = up_frame(up);
+  Vector3d first = asked_view(options, scenes, frame, axes);
+  if (options.view == View::Auto && !options.direction && first.cross(axes.up).norm() < 1e-3)
+    first = default_view(frame, axes);  // a flat mesh that lies on the ground
   if (first.cross(axes.up).norm() < 1e-3)
     throw Error(ErrorCode::BadArgument, "a turntable needs a view from the side, not from straight above or below");
   const Vector2d tangents = kFill * tangents_of(options);
@@ -233,7 +192,7 @@ std::vector<Viewpoint> turned_viewpoints(const Scenes& scenes, const RenderOptio
 
 Camera camera_of(const Scene& scene, const Frame& frame, const RenderOptions& options) {
   const Viewpoint viewpoint = options.viewpoint ? *options.viewpoint : fitted_viewpoint({&scene}, options);
-  const Axes axes = axes_of(viewpoint.up);
+  const UpFrame axes = up_frame(viewpoint.up);
   const Vector3d view = to_vector(viewpoint.direction).stableNormalized();
   const Vector3d eye = to_vector(viewpoint.target) - frame.centre.transpose() + viewpoint.distance * view;
   if (!view.allFinite() || view.isZero() || !eye.allFinite() || !(viewpoint.distance > 0.0))

@@ -19,8 +19,12 @@ struct Camera {
 
 using Scenes = std::vector<const Scene*>;
 
-/// Y or Z, as UpAxis describes.
-UpAxis resolve_up(const Scenes& scenes, const Frame& frame, UpAxis asked);
+/// The axis asked for, or guess_up_axis of the first scene's surface, lines or markers.
+UpAxis resolve_up(const Scenes& scenes, UpAxis asked);
+
+/// The normal of the surfaces if all lie in one plane, to 1/500 of their size; zero otherwise. On the side of most of
+/// the faces' area.
+Eigen::Vector3d flat_normal(const Scenes& scenes, const Frame& frame);
 
 /// See fit_viewpoint and turntable. Throws Error(BadArgument) for a direction that is zero or not finite.
 Viewpoint fitted_viewpoint(const Scenes& scenes, const RenderOptions& options);
