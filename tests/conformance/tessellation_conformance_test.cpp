@@ -17,7 +17,9 @@ TEST_P(TessellatedShapes, AreWhatRefinementGives) {
       EXPECT_LE(exact.refined, 1e-14);
       EXPECT_LE(exact.limit, 1e-14);
       // Two quads back to back lie in one plane: their fold has no normal.
-      if (GetParam() != "catmark_val2_back2back") EXPECT_LE(exact.normal, 1e-9);
+      if (GetParam() != "catmark_val2_back2back") {
+        EXPECT_LE(exact.normal, 1e-9);
+      }
       const TessellationErrors rounded = compare_with_refinement<float>(topology, scheme, mesh.points, levels);
       EXPECT_LE(rounded.refined, 2e-7);
       EXPECT_LE(rounded.limit, 2e-7);

@@ -48,7 +48,9 @@ TEST(SparseRows, ProductsHaveAscendingColumnsWithoutZeros) {
   for (Index r = 0; r < both.count(); ++r) {
     for (Index e = both.starts[r]; e < both.starts[r + 1]; ++e) {
       EXPECT_NE(both.weights[e], 0.0);
-      if (e > both.starts[r]) EXPECT_LT(both.columns[e - 1], both.columns[e]);
+      if (e > both.starts[r]) {
+        EXPECT_LT(both.columns[e - 1], both.columns[e]);
+      }
     }
   }
 }
