@@ -4,7 +4,9 @@
 
 #include "batten/adaptive/adaptive.h"
 #include "batten/mesh/segment.h"
+#include "batten/nearest/lanes.h"
 #include "batten/parallel/parallel.h"
+#include "batten/progress.h"
 
 namespace batten {
 
@@ -39,10 +41,34 @@ constexpr std::array<std::array<double, 3>, kSampleCount> kSamples{{{0.5, 0.5, 0
                                                                     {1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0},
                                                                     {1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0}}};
 
+/// The samples of one of a face's triangles.
+using Samples = std::array<SurfacePlace, kSampleCount>;
+
+Samples samples_of(const AdaptiveMesh& mesh, Index face, Index half, bool quads) {
+  Samples samples;
+  const std::array<Index, 3> corners{0, half + 1, half + 2};
+  const Index first = mesh.mesh.face_offsets[face];
+  for (std::size_t i = 0; i < kSampleCount; ++i) {
+    SurfacePlace place{mesh.base_faces[face], 0.0, 0.0};
+    for (int k = 0; k < 3; ++k) {
+      const std::array<double, 2>& at = mesh.corner_parameters[first + corners[k]];
+      place.u += kSamples[i][k] * at[0];
+      place.v += kSamples[i][k] * at[1];
+    }
+    place.v = std::min(place.v, 1.0);
+    place.u = std::min(place.u, quads ? 1.0 : 1.0 - place.v);
+    samples[i] = place;
+  }
+  return samples;
+}
+
 /// Measures distances to a mesh, with the faces around each vertex.
 class Meter {
  public:
-  Meter(const LimitSurface& surface, const AdaptiveMesh& mesh) : surface_(surface), adaptive_(mesh), mesh_(mesh.mesh) {
+  explicit Meter(const Mesh& mesh)
+      : mesh_(mesh),
+        low_(static_cast<std::size_t>(mesh.face_count())),
+        high_(static_cast<std::size_t>(mesh.face_count())) {
     first_.resize(static_cast<std::size_t>(mesh_.vertex_count()) + 1, 0);
     for (const Index v : mesh_.face_vertices) ++first_[v + 1];
     for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
@@ -51,27 +77,18 @@ class Meter {
     for (Index f = 0; f < mesh_.face_count(); ++f) {
       for (Index c = mesh_.face_offsets[f]; c < mesh_.face_offsets[f + 1]; ++c) {
         around_[next[mesh_.face_vertices[c]]++] = f;
+        const auto row = mesh_.points.row(mesh_.face_vertices[c]);
+        const Double4 point{row[0], row[1], row[2], 0.0};
+        low_[f] = c == mesh_.face_offsets[f] ? point : lower(low_[f], point);
+        high_[f] = c == mesh_.face_offsets[f] ? point : higher(high_[f], point);
       }
     }
   }
 
-  /// The greatest distance at samples of one of a face's triangles.
-  double worst_of(Index face, Index half) const {
-    const std::array<Index, 3> corners{0, half + 1, half + 2};
-    const Index first = mesh_.face_offsets[face];
-    const double most = surface_.base().uniform_face_size() == 3 ? 0.0 : 1.0;
+  /// The greatest distance of samples of one of a face's triangles.
+  double worst_of(Index face, Index half, const Jet* samples) const {
     double worst = 0.0;
-    for (const std::array<double, 3>& weights : kSamples) {
-      SurfacePlace place{adaptive_.base_faces[face], 0.0, 0.0};
-      for (int k = 0; k < 3; ++k) {
-        const std::array<double, 2>& at = adaptive_.corner_parameters[first + corners[k]];
-        place.u += weights[k] * at[0];
-        place.v += weights[k] * at[1];
-      }
-      place.v = std::min(place.v, 1.0);
-      place.u = std::min(place.u, most == 1.0 ? 1.0 : 1.0 - place.v);
-      worst = std::max(worst, nearest(surface_.jet(place).point, face, half));
-    }
+    for (std::size_t i = 0; i < kSampleCount; ++i) worst = std::max(worst, nearest(samples[i].point, face, half));
     return worst;
   }
 
@@ -87,10 +104,13 @@ class Meter {
     const Distance own = distance_to_triangle(p, triangle(face, half));
     if (own.above) return own.value;
     double least = own.value;
+    const Double4 at{p[0], p[1], p[2], 0.0};
     for (Index c = mesh_.face_offsets[face]; c < mesh_.face_offsets[face + 1]; ++c) {
       const Index v = mesh_.face_vertices[c];
       for (Index i = first_[v]; i < first_[v + 1]; ++i) {
         const Index other = around_[i];
+        // Around a vertex of high valence most faces are too far away to be looked at.
+        if (squared_distance_of_box(low_[other] - at, high_[other] - at) > kMore * least * least) continue;
         for (Index h = 0; h + 2 < mesh_.face_size(other); ++h) {
           least = std::min(least, distance_to_triangle(p, triangle(other, h)).value);
         }
@@ -99,30 +119,57 @@ class Meter {
     return least;
   }
 
-  const LimitSurface& surface_;
-  const AdaptiveMesh& adaptive_;
+  static constexpr double kMore = 1.0 + 1e-12;  ///< for what rounding does to distances
   const Mesh& mesh_;
+  Buffer<Double4> low_;  ///< of the box around each face
+  Buffer<Double4> high_;
   Buffer<Index> first_;  ///< the start of each vertex's faces in around_
   Buffer<Index> around_;
 };
+
+/// So many faces at a time: jets are large.
+constexpr Index kChunk = 1 << 12;
 
 }  // namespace
 
 double measured_chord(const LimitSurface& surface, const AdaptiveMesh& mesh, const Progress& progress) {
   constexpr std::ptrdiff_t kFacesPerBlock = 256;
-  const Meter meter(surface, mesh);
-  return parallel_reduce(
-      mesh.mesh.face_count(), 0.0,
-      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-        double worst = 0.0;
-        for (auto f = static_cast<Index>(begin); f < end; ++f) {
-          for (Index half = 0; half + 2 < mesh.mesh.face_size(f); ++half) {
-            worst = std::max(worst, meter.worst_of(f, half));
+  const Meter meter(mesh.mesh);
+  const bool quads = surface.base().uniform_face_size() != 3;
+  std::vector<SurfacePlace> places;
+  std::vector<Jet> jets;
+  Buffer<std::size_t> starts;
+  double worst = 0.0;
+  for (Index first = 0; first < mesh.mesh.face_count(); first += kChunk) {
+    report_progress(progress, static_cast<double>(first) / mesh.mesh.face_count());
+    const Index count = std::min(kChunk, mesh.mesh.face_count() - first);
+    places.clear();
+    starts.clear();
+    for (Index f = first; f < first + count; ++f) {
+      starts.push_back(places.size());
+      for (Index half = 0; half + 2 < mesh.mesh.face_size(f); ++half) {
+        const Samples samples = samples_of(mesh, f, half, quads);
+        places.insert(places.end(), samples.begin(), samples.end());
+      }
+    }
+    jets.resize(places.size());
+    surface.jets(places, jets);
+    const double worst_here = parallel_reduce(
+        count, 0.0,
+        [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+          double worst_of_block = 0.0;
+          for (auto f = static_cast<Index>(begin); f < end; ++f) {
+            const Jet* samples = jets.data() + starts[f];
+            for (Index half = 0; half + 2 < mesh.mesh.face_size(first + f); ++half, samples += kSampleCount) {
+              worst_of_block = std::max(worst_of_block, meter.worst_of(first + f, half, samples));
+            }
           }
-        }
-        return worst;
-      },
-      [](double a, double b) { return std::max(a, b); }, kFacesPerBlock, progress);
+          return worst_of_block;
+        },
+        [](double a, double b) { return std::max(a, b); }, kFacesPerBlock);
+    worst = std::max(worst, worst_here);
+  }
+  return worst;
 }
 
 }  // namespace batten

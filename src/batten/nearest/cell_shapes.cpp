@@ -67,7 +67,7 @@ CellShapes<Net>::CellShapes(const SurfacePatches& patches) {
   for (std::size_t i = 0; i < pieces.shared_rings().size(); ++i) {
     const Pieces::SharedRing& shared = pieces.shared_rings()[i];
     const Index type = patches.ring_type(static_cast<std::int32_t>(i));
-    const Index count = shared.topology.vertex_count();
+    const Index count = shared.points;
     int levels = kRingLevels;
     for (Index size = shared.size; size < (Index{1} << pieces.levels()); size *= 2) --levels;
     const auto first = static_cast<Index>(shapes_.size());

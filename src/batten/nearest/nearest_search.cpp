@@ -13,6 +13,9 @@ namespace {
 /// A query that has visited so many parts of cells is near a part of the surface that degenerates. It returns the best
 /// point so far, and the least distance that is proved by then.
 constexpr int kMostVisits = 20000;
+/// Around a pole all its faces may be equally near, each with four parts at every level until they are within the
+/// tolerance of the pole: after some fifty halvings.
+constexpr int kMostVisitsAPoleFace = 256;
 /// Where the squared distance is less convex than this, Newton's method proves nothing in reasonable time.
 constexpr double kLeastModulus = 0.02;
 /// Newton's method takes no more steps in a cell.
@@ -21,7 +24,10 @@ constexpr int kMostCellSteps = 12;
 }  // namespace
 
 template <typename Net>
-NearestSearch<Net>::NearestSearch(const SurfaceCells<Net>& cells) : cells_(cells), scratch_(cells.most_points()) {}
+NearestSearch<Net>::NearestSearch(const SurfaceCells<Net>& cells)
+    : cells_(cells),
+      most_visits_(kMostVisits + std::int64_t{kMostVisitsAPoleFace} * cells.most_pole_faces()),
+      scratch_(cells.most_points()) {}
 
 template <typename Net>
 NearestFound NearestSearch<Net>::find(const Double4& query, double tolerance) {
@@ -48,7 +54,7 @@ NearestFound NearestSearch<Net>::find(const Double4& query, double tolerance) {
 /// True where a part whose squared distance is at least this can be left; then the proof takes note of the bound.
 template <typename Net>
 bool NearestSearch<Net>::leave(double squared) {
-  if (squared < cut_ && visits_ < kMostVisits) return false;
+  if (squared < cut_ && visits_ < most_visits_) return false;
   best_.least = std::min(best_.least, squared);
   return true;
 }

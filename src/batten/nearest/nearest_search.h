@@ -1,6 +1,7 @@
 /// \file One search for the nearest point. It visits cells from the nearest on, and leaves each as soon as its bounds
 /// prove that it has nothing nearer.
 #pragma once
+#include <cstdint>
 #include <limits>
 
 #include "batten/nearest/surface_cells.h"
@@ -52,8 +53,9 @@ class NearestSearch {
   double tolerance_ = 0.0;
   double cut_ = 0.0;  ///< parts at this squared distance or beyond it are left
   NearestFound best_;
-  Index face_ = 0;  ///< of the cell that is being searched
-  int visits_ = 0;  ///< of cells and parts of cells
+  Index face_ = 0;           ///< of the cell that is being searched
+  std::int64_t visits_ = 0;  ///< of cells and parts of cells
+  std::int64_t most_visits_;
   typename SurfaceCells<Net>::Scratch scratch_;
   std::vector<Double4> rings_;  ///< a stack of the rings between a cell and the part at hand
   std::vector<Part> pending_;

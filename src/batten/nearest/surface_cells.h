@@ -55,6 +55,8 @@ class SurfaceCells {
   }
   /// The most points that a cell has, or control points that a piece has.
   std::size_t most_points() const { return static_cast<std::size_t>(shapes_.most_points()); }
+  /// The most faces that a pole has (patch/poles.h).
+  Index most_pole_faces() const { return patches_.pieces().poles().most_faces(); }
   /// The limit position of a vertex of the base.
   const Double4& limit_position(Index vertex) const { return control_.limits[vertex]; }
 

@@ -112,21 +112,19 @@ bool FaceRing::add_fan(const Topology& topology, Index half_edge, std::size_t mo
   return true;
 }
 
-bool FaceRing::gather(const Topology& topology, const Scheme& scheme, Index half_edge, std::size_t most) {
+void FaceRing::start(const Topology& topology, Index half_edge) {
   vertices_.clear();
   starts_.clear();
   faces_.clear();
   key_.clear();
   far_ends_.clear();
+  pole_corner_ = -1;
   add_face(topology, half_edge);
-  const Index size = topology.face_size(topology.face(half_edge));
-  Index side = half_edge;
-  for (Index c = 0; c < size; ++c, side = topology.next(side)) {
-    append_bytes(key_, vertex_sharpness(topology, scheme, topology.origin(side)));
-    if (!add_fan(topology, side, most)) return false;
-  }
+}
+
+/// Chaikin's rule looks at all edges at both ends of a semi-sharp edge.
+bool FaceRing::add_far_fans(const Topology& topology, const Scheme& scheme, Index size, std::size_t most) {
   if (scheme.crease_method == CreaseMethod::Uniform) return true;
-  // Chaikin's rule looks at all edges at both ends of a semi-sharp edge.
   const Buffer<Index> far_ends = far_ends_;
   for (const Index far : far_ends) {
     const auto own_end = vertices().begin() + size;
@@ -134,6 +132,54 @@ bool FaceRing::gather(const Topology& topology, const Scheme& scheme, Index half
     if (!add_fan(topology, far, most)) return false;
   }
   return true;
+}
+
+bool FaceRing::gather(const Topology& topology, const Scheme& scheme, Index half_edge, std::size_t most) {
+  start(topology, half_edge);
+  const Index size = topology.face_size(topology.face(half_edge));
+  Index side = half_edge;
+  for (Index c = 0; c < size; ++c, side = topology.next(side)) {
+    append_bytes(key_, vertex_sharpness(topology, scheme, topology.origin(side)));
+    if (!add_fan(topology, side, most)) return false;
+  }
+  return add_far_fans(topology, scheme, size, most);
+}
+
+void FaceRing::gather(const Topology& topology, const Scheme& scheme, Index half_edge, const Poles& poles, int width) {
+  start(topology, half_edge);
+  width_ = width;
+  const Index size = topology.face_size(topology.face(half_edge));
+  Index side = half_edge;
+  Index pole_side = -1;
+  for (Index c = 0; c < size; ++c, side = topology.next(side)) {
+    if (pole_side < 0 && poles.is_pole(topology.origin(side))) {
+      pole_side = side;
+      pole_corner_ = c;
+      key_.push_back('p');
+      continue;
+    }
+    append_bytes(key_, vertex_sharpness(topology, scheme, topology.origin(side)));
+    add_fan(topology, side, kAnyNumber);
+  }
+  add_far_fans(topology, scheme, size, kAnyNumber);
+  if (pole_side >= 0) add_pole(topology, pole_side, poles);
+}
+
+void FaceRing::add_pole(const Topology& topology, Index half_edge, const Poles& poles) {
+  const Index pole = topology.origin(half_edge);
+  pole_faces_ = poles.faces(pole);
+  append_bytes(key_, pole_faces_);
+  family_size_ = key_.size();
+  Index left = half_edge;
+  Index right = half_edge;
+  for (int i = 0; i < width_; ++i) {
+    add_face(topology, left = topology.twin(topology.previous(left)));
+    add_face(topology, right = topology.next(topology.twin(right)));
+  }
+  append_bytes(key_, width_);
+  points_ = vertices();
+  const Index size = topology.face_size(topology.face(half_edge));
+  for (Index m = 0; m < poles.means(); ++m) points_.insert(points_.begin() + size + m, poles.first_mean(pole) + m);
 }
 
 Cutting cut_out(const Topology& from, const Buffer<Index>& half_edges) {

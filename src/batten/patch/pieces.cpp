@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,7 +9,6 @@
 
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
-#include "batten/patch/pole_keys.h"
 #include "batten/patch/quad_ring.h"
 
 namespace batten {
@@ -176,6 +174,7 @@ Buffer<std::uint8_t> Pieces::take(int level, const Buffer<Index>& faces, const s
       }
     }
   });
+  if (last && !cells) poles_ = Poles(from, scheme_);
   if (share) share_rings(from, last && !cells ? 1 : kFewestSharing, found, taken);
   append_taken(found, taken);
   return taken;
@@ -201,30 +200,29 @@ void Pieces::append_taken(const Buffer<Piece>& found, const Buffer<std::uint8_t>
 /// The keys and vertices of many one-rings, gathered by threads into blocks of their own.
 class Pieces::RingKeys {
  public:
-  RingKeys(const Topology& from, const Scheme& scheme, const Buffer<Piece>& found, const Buffer<std::size_t>& which,
-           std::size_t most)
+  RingKeys(const Topology& from, const Scheme& scheme, const Poles& poles, const Buffer<Piece>& found,
+           const Buffer<std::size_t>& which, std::size_t most)
       : entries_(which.size()), blocks_(static_cast<std::size_t>(block_count(count(), kBlock))) {
     const SharpnessCodes codes(from);
-    std::optional<PoleKeys> poles;
-    if (most == FaceRing::kAnyNumber) poles.emplace(from);
     parallel_for(
         count(),
         [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
           QuadRing quads(from, scheme, codes);
           FaceRing ring;
-          std::string key;
           Block& block = blocks_[begin / kBlock];
           for (std::ptrdiff_t i = begin; i < end; ++i) {
             const Index half_edge = found[which[i]].half_edge;
             if (quads.gather(half_edge)) {
               const char* const code = reinterpret_cast<const char*>(quads.code().data());
               add(i, true, {code, sizeof(QuadRing::Code)}, quads, block);
-            } else if (poles && poles->find(half_edge, key)) {
-              add(i, false, key, Buffer<Index>(), block);
-            } else if (ring.gather(from, scheme, half_edge, most)) {
-              add(i, false, ring.key(), ring.vertices().size() > kMostKeptRing ? Buffer<Index>() : ring.vertices(),
-                  block);
+              continue;
             }
+            if (most < FaceRing::kAnyNumber) {
+              if (!ring.gather(from, scheme, half_edge, most)) continue;
+            } else {
+              ring.gather(from, scheme, half_edge, poles, Poles::kWidth);
+            }
+            add(i, false, ring.key(), ring.points().size() > kMostKeptRing ? Buffer<Index>() : ring.points(), block);
           }
         },
         kBlock);
@@ -273,13 +271,17 @@ class Pieces::RingKeys {
   std::vector<Block> blocks_;
 };
 
+void Pieces::gather(const Topology& from, Index half_edge, FaceRing& ring) const {
+  ring.gather(from, scheme_, half_edge, poles_, Poles::kWidth);
+}
+
 /// Takes the irregular faces whose surroundings occur at least `fewest` times.
 void Pieces::share_rings(const Topology& from, std::size_t fewest, Buffer<Piece>& found, Buffer<std::uint8_t>& taken) {
   Buffer<std::size_t> irregular;
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (taken[i] == 0) irregular.push_back(i);
   }
-  const RingKeys rings(from, scheme_, found, irregular, fewest > 1 ? kMostRingVertices : FaceRing::kAnyNumber);
+  const RingKeys rings(from, scheme_, poles_, found, irregular, fewest > 1 ? kMostRingVertices : FaceRing::kAnyNumber);
   struct Sharing {
     std::size_t count = 0;
     std::int32_t number = -1;
@@ -303,9 +305,11 @@ void Pieces::share_rings(const Topology& from, std::size_t fewest, Buffer<Piece>
     if (sharing->number < 0) {
       sharing->number = static_cast<std::int32_t>(shared_rings_.size());
       FaceRing ring;
-      ring.gather(from, scheme_, piece.half_edge);
+      gather(from, piece.half_edge, ring);
       if (rings.is_quad_ring(i)) sharing->order = places_of(ring.vertices(), rows);
-      shared_rings_.push_back({cut_out(from, ring.half_edges()).topology, piece.size});
+      const Topology cut = cut_out(from, ring.half_edges()).topology;
+      const Poles poles = ring.pole_corner() < 0 ? Poles() : Poles(cut, ring.pole_corner(), ring.pole_faces());
+      shared_rings_.push_back({cut, piece.size, static_cast<Index>(ring.points().size()), poles});
     }
     piece.shared_ring = sharing->number;
     taken[irregular[i]] = 1;
@@ -361,11 +365,11 @@ void Pieces::sort_pieces() {
 
 std::span<const Index> Pieces::ring(const Piece& piece, FaceRing& scratch) const {
   if (piece.first_row != kGathered) {
-    const Index size = shared_rings_[piece.shared_ring].topology.vertex_count();
-    return {rows_.data() + piece.first_row, static_cast<std::size_t>(size)};
+    const Index count = shared_rings_[piece.shared_ring].points;
+    return {rows_.data() + piece.first_row, static_cast<std::size_t>(count)};
   }
-  scratch.gather(topology(piece.level), scheme_, piece.half_edge);
-  return scratch.vertices();
+  gather(topology(piece.level), piece.half_edge, scratch);
+  return scratch.points();
 }
 
 bool needs_first_step(const Topology& topology, const Scheme& scheme) {
@@ -379,7 +383,8 @@ Values Pieces::refine(int level, ConstValuesRef before) const {
   parallel_for(values.rows(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (std::ptrdiff_t i = begin; i < end; ++i) values.row(i) = before.row(rows[i]);
   });
-  return region.step.apply(values);
+  Values refined = region.step.apply(values);
+  return level == levels_ && !poles_.empty() ? poles_.with_means(region.step.child(), refined) : refined;
 }
 
 }  // namespace batten

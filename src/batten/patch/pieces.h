@@ -28,7 +28,7 @@ inline constexpr std::size_t kMostKeptRing = 1024;
 struct Piece {
   enum class Kind : std::uint8_t {
     Patch,  ///< rows: a RegularPatch
-    Ring,   ///< the one-ring, as many vertices as the shared ring's topology has
+    Ring,   ///< the one-ring, as many points as the shared ring has
     Cell    ///< one step wide; rows: the corners
   };
   Index face;
@@ -65,18 +65,24 @@ class Pieces {
   const Piece* end(Index face) const { return pieces_.data() + first_piece_[face + 1]; }
   /// Of a patch or a cell.
   const Index* rows(const Piece& piece) const { return rows_.data() + piece.first_row; }
-  /// The vertices of a ring. Those of large ones are gathered into `scratch`: around a vertex of valence n they would
-  /// be n times 2 n numbers.
+  /// The points of a ring (FaceRing::points). Those of large ones are gathered into `scratch`: around a vertex of
+  /// valence n they would be n times 2 n numbers.
   std::span<const Index> ring(const Piece& piece, FaceRing& scratch) const;
 
   /// The surroundings that several pieces of one size share: its topology has the piece as face 0.
   struct SharedRing {
     Topology topology;
     Index size;
+    Index points;  ///< of the ring
+    Poles poles;   ///< of the topology: the face's corner, if it is one
   };
   const std::vector<SharedRing>& shared_rings() const { return shared_rings_; }
 
-  /// The refined neighbourhoods, coarse to fine: level l > 0 has the values refine() makes of those of level l - 1.
+  /// Those of the last level, where its rest are rings.
+  const Poles& poles() const { return poles_; }
+
+  /// The refined neighbourhoods, coarse to fine: level l > 0 has the values refine() makes of those of level l - 1. The
+  /// last level of rings also has the means of its poles (patch/poles.h).
   int region_count() const { return static_cast<int>(regions_.size()); }
   Values refine(int level, ConstValuesRef before) const;
   const Topology& topology(int level) const { return level == 0 ? base_ : regions_[level - 1]->step.child(); }
@@ -100,6 +106,7 @@ class Pieces {
   void build(Buffer<Index> faces, bool share);
   Buffer<std::uint8_t> take(int level, const Buffer<Index>& faces, const std::vector<Site>& sites, bool share);
   void append_taken(const Buffer<Piece>& found, const Buffer<std::uint8_t>& taken);
+  void gather(const Topology& from, Index half_edge, FaceRing& ring) const;
   void share_rings(const Topology& from, std::size_t fewest, Buffer<Piece>& found, Buffer<std::uint8_t>& taken);
   std::vector<Site> child_sites(const std::vector<Site>& sites, Index size) const;
   Index aligned_corner(const Site& site, Index size, Piece& piece) const;
@@ -109,6 +116,7 @@ class Pieces {
   Scheme scheme_;
   int levels_;
   Rest rest_;
+  Poles poles_;
   Buffer<std::size_t> first_piece_;
   Buffer<Piece> pieces_;
   Buffer<Index> rows_;

@@ -41,11 +41,27 @@ class RingTypes {
   Index type_count() const { return static_cast<Index>(types_.size()); }
   const Step& step(Index type) const { return steps_[type]; }
 
+  /// Whether the face is at a pole (patch/poles.h).
+  bool at_pole(Index type) const { return poles_[type].family >= 0; }
+  /// Of a face at a pole: the type for which the first points of its ring, as many as that type's ring has, are enough
+  /// for so many halvings. Other types are enough themselves.
+  Index narrowed(Index type, int halvings) const;
+
  private:
+  /// Rings that differ in how many faces at their pole they have are a family.
+  struct PoleType {
+    Index family = -1;
+    int width = 0;
+  };
+  Index add_type(const FaceRing& ring);
+
   Scheme scheme_;
   std::unordered_map<std::string, Index> numbers_;
   std::vector<std::vector<Child>> types_;
   std::vector<Step> steps_;
+  std::vector<PoleType> poles_;
+  std::unordered_map<std::string, Index> family_numbers_;
+  std::vector<Buffer<Index>> families_;  ///< the type of each width, or -1
 };
 
 }  // namespace batten

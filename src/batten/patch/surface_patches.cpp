@@ -26,7 +26,7 @@ struct SurfacePatches::Parts {
         : pieces(base, base_scheme, kRingPieceLevels, Pieces::Rest::Rings), types(scheme) {
       FaceRing ring;
       for (const Pieces::SharedRing& shared : pieces.shared_rings()) {
-        ring.gather(shared.topology, base_scheme, 0);
+        ring.gather(shared.topology, base_scheme, 0, shared.poles, Poles::kWidth);
         type_of_shared.push_back(types.type_of(shared.topology, ring));
       }
     }

@@ -109,6 +109,10 @@ struct LimitSurface::Parts {
   const Topology& base() const { return patches.base(); }
   std::size_t patch_size() const { return static_cast<std::size_t>(patches.patch_size()); }
 
+  /// Rings at poles have none: they are large, and halve from a narrow part of the ring.
+  bool has_tree(const Piece& piece) const {
+    return piece.kind != Piece::Kind::Patch && !types.at_pole(ring_types[piece.shared_ring]);
+  }
   void lay_out_trees();
   void set_control(ConstValuesRef control, const Progress& progress);
   void check(const SurfacePlace& place) const { require_place(base(), place); }
@@ -127,7 +131,7 @@ void LimitSurface::Parts::lay_out_trees() {
   const auto most = kKeptPointsPerVertex * static_cast<std::size_t>(base().vertex_count());
   Buffer<std::size_t> pieces_of_type(static_cast<std::size_t>(types.type_count()), 0);
   for (const Piece* piece = begin; piece != end; ++piece) {
-    if (piece->kind != Piece::Kind::Patch) ++pieces_of_type[ring_types[piece->shared_ring]];
+    if (has_tree(*piece)) ++pieces_of_type[ring_types[piece->shared_ring]];
   }
   for (int depth = 1; depth <= kMostKeptHalvings; ++depth) {
     std::size_t total = 0;
@@ -146,7 +150,7 @@ void LimitSurface::Parts::lay_out_trees() {
       if (std::find(rows, rows + patch_size(), RegularPatch::kMissing) != rows + patch_size()) {
         tree_starts[piece - begin] = kOpenPatch;
       }
-    } else if (kept_halvings > 0) {
+    } else if (has_tree(*piece) && kept_halvings > 0) {
       size += blocks.node(blocks.node_of(ring_types[piece->shared_ring], kept_halvings)).size;
     }
   }
@@ -167,7 +171,7 @@ void LimitSurface::Parts::set_control(ConstValuesRef control, const Progress& pr
           FaceRing ring;
           for (auto f = static_cast<Index>(begin); f < end; ++f) {
             for (const Piece* piece = pieces.begin(f); piece != pieces.end(f); ++piece) {
-              if (piece->kind == Piece::Kind::Patch) continue;
+              if (!has_tree(*piece)) continue;
               blocks.fill(blocks.node_of(ring_types[piece->shared_ring], kept_halvings), level[piece->level].data(),
                           pieces.ring(*piece, ring).data(), Double4{}, &filled[tree_starts[number_of(*piece)]],
                           scratch);
@@ -233,7 +237,9 @@ void LimitSurface::Parts::set_on_ring(const Piece& piece, double u, double v, do
   Descent at{ring_types[piece.shared_ring], points[piece.level].data(), pieces.ring(piece, scratch.gathered).data(),
              Double4{}};
   int halvings = 0;
-  if (kept_halvings > 0) {
+  if (types.at_pole(at.type)) {
+    at.type = types.narrowed(at.type, approach(quads, u, v).halvings + 1);
+  } else if (kept_halvings > 0) {
     const Double4* tree = trees.data() + tree_starts[number_of(piece)];
     std::int32_t node = blocks.node_of(at.type, kept_halvings);
     const Approach near = approach(quads, u, v);
