@@ -5,8 +5,11 @@
 #include <array>
 #include <numbers>
 
+#include "batten/patch/pieces.h"
+#include "batten/patch/surface_patches.h"
 #include "batten/surface/limit_surface.h"
 #include "batten/surface/surface_weights.h"
+#include "support/errors.h"
 #include "support/shapes.h"
 
 namespace batten {
@@ -93,6 +96,28 @@ TEST(Poles, HaveTheJetsOfWholeRingsBesideCreases) {
   for (const SchemeKind kind : {SchemeKind::CatmullClark, SchemeKind::Loop}) {
     expect_jets_of_whole_rings(creased_bipyramid(kValence + 8), Scheme{kind});
   }
+}
+
+/// A crease through a pole, that fades before rings begin or after.
+Mesh creased_pole(float sharpness) {
+  Mesh mesh = wavy_bipyramid(kMostSharpFaces + 2);
+  const Index pole = kMostSharpFaces + 2;
+  mesh.creases = {{0, pole, sharpness}, {kMostSharpFaces / 2, pole, sharpness}};
+  return mesh;
+}
+
+TEST(Poles, OfTooManyFacesAreErrorsAtBoundariesAndCreasesOnly) {
+  const std::string pole = "vertex " + std::to_string(kMostSharpFaces + 2) + " has ";
+  const Mesh open = test::without_face(wavy_bipyramid(kMostSharpFaces + 2), 0);
+  for (const Mesh& mesh : {open, creased_pole(2.5F)}) {
+    const SurfacePatches patches(Topology(mesh), Scheme{SchemeKind::Loop});
+    test::expect_error([&] { (void)patches.pieces(); }, ErrorCode::TooLarge, pole);
+    test::expect_error([&] { (void)patches.face_types(); }, ErrorCode::TooLarge, pole);
+    test::expect_error([&] { LimitSurface(patches, mesh.points); }, ErrorCode::TooLarge, pole);
+  }
+  const Mesh fading = creased_pole(2.0F);
+  const SurfacePatches patches(Topology(fading), Scheme{SchemeKind::Loop});
+  EXPECT_EQ(patches.pieces().poles().most_faces(), kMostSharpFaces + 2);
 }
 
 }  // namespace

@@ -1,7 +1,10 @@
 #include "batten/patch/poles.h"
 
 #include <algorithm>
+#include <string>
 
+#include "batten/error.h"
+#include "batten/patch/pieces.h"
 #include "batten/refine/vertex_blend.h"
 
 namespace batten {
@@ -10,13 +13,24 @@ namespace {
 
 Index mean_count(const Topology& topology) { return topology.uniform_face_size() == 3 ? 1 : 2; }
 
-/// The faces around a vertex where its fan is closed and none of its edges is sharp, otherwise 0.
-Index smooth_face_count(const Topology& topology, Index vertex) {
+Buffer<Index> face_counts(const Topology& topology) {
+  Buffer<Index> faces(static_cast<std::size_t>(topology.vertex_count()), 0);
+  for (Index h = 0; h < topology.half_edge_count(); ++h) ++faces[topology.origin(h)];
+  return faces;
+}
+
+/// Chaikin's rule looks beyond rings.
+bool may_have_poles(const Topology& topology, const Scheme& scheme) {
+  return scheme.crease_method != CreaseMethod::Chaikin || !topology.has_creases();
+}
+
+/// The faces around a vertex where its fan is closed and none of its edges is sharper than given, otherwise 0.
+Index smooth_face_count(const Topology& topology, Index vertex, float sharpness) {
   Index count = 0;
   Index h = topology.vertex_half_edge(vertex);
   const Index start = h;
   do {
-    if (topology.edge_sharpness(topology.edge(h)) > 0.0F) return 0;
+    if (topology.edge_sharpness(topology.edge(h)) > sharpness) return 0;
     h = topology.twin(topology.previous(h));
     ++count;
   } while (h >= 0 && h != start);
@@ -27,12 +41,11 @@ Index smooth_face_count(const Topology& topology, Index vertex) {
 
 Poles::Poles(const Topology& topology, const Scheme& scheme)
     : means_(mean_count(topology)), first_(topology.vertex_count()) {
-  if (scheme.crease_method == CreaseMethod::Chaikin && topology.has_creases()) return;
-  Buffer<Index> faces(static_cast<std::size_t>(topology.vertex_count()), 0);
-  for (Index h = 0; h < topology.half_edge_count(); ++h) ++faces[topology.origin(h)];
+  if (!may_have_poles(topology, scheme)) return;
+  const Buffer<Index> faces = face_counts(topology);
   for (Index v = 0; v < topology.vertex_count(); ++v) {
     if (faces[v] < kFewestFaces || vertex_sharpness(topology, scheme, v) > 0.0F) continue;
-    if (smooth_face_count(topology, v) == faces[v]) add(v, faces[v]);
+    if (smooth_face_count(topology, v, 0.0F) == faces[v]) add(v, faces[v]);
   }
 }
 
@@ -63,6 +76,22 @@ Values Poles::with_means(const Topology& topology, const Values& values) const {
     means /= faces(pole);
   }
   return all;
+}
+
+void require_narrow_sharp_fans(const Topology& topology, const Scheme& scheme) {
+  // What fades before the rings of pieces begin is smooth by then.
+  constexpr float kFading = kRingPieceLevels;
+  const Buffer<Index> faces = face_counts(topology);
+  for (Index v = 0; v < topology.vertex_count(); ++v) {
+    if (faces[v] <= kMostSharpFaces) continue;
+    const bool fades = may_have_poles(topology, scheme) && vertex_sharpness(topology, scheme, v) <= kFading;
+    if (fades && smooth_face_count(topology, v, kFading) == faces[v]) continue;
+    throw Error(ErrorCode::TooLarge,
+                "vertex " + std::to_string(v) + " has " + std::to_string(faces[v]) +
+                    " faces and is at a boundary or crease, or a corner: the surface around such a vertex is cut into "
+                    "pieces for at most " +
+                    std::to_string(kMostSharpFaces) + "; divide the fan");
+  }
 }
 
 }  // namespace batten

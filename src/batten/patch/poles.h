@@ -53,4 +53,11 @@ class Poles {
   std::unordered_map<Index, Index> places_;  ///< of each pole: where it stands among them
 };
 
+/// Every face at a vertex that is no pole has a ring, and a ring type, of its own, with all faces there: beyond so many
+/// they take gigabytes and minutes.
+inline constexpr Index kMostSharpFaces = 1024;
+
+/// Throws Error(TooLarge) where more faces meet at a vertex that will be no pole. O(H).
+void require_narrow_sharp_fans(const Topology& topology, const Scheme& scheme);
+
 }  // namespace batten

@@ -63,7 +63,10 @@ struct SurfacePatches::Parts {
   }
 
   const Cut& cut_into_pieces() const {
-    std::call_once(cut_once, [&] { cut = std::make_unique<const Cut>(base, base_scheme, scheme); });
+    std::call_once(cut_once, [&] {
+      require_narrow_sharp_fans(base, base_scheme);
+      cut = std::make_unique<const Cut>(base, base_scheme, scheme);
+    });
     return *cut;
   }
 };
@@ -107,8 +110,10 @@ Index SurfacePatches::ring_type(std::int32_t shared_ring) const {
 
 const FaceTypes& SurfacePatches::face_types() const {
   const Parts& parts = *parts_;
-  std::call_once(parts.faces_once,
-                 [&] { parts.faces = std::make_unique<const FaceTypes>(parts.base, parts.base_scheme); });
+  std::call_once(parts.faces_once, [&] {
+    require_narrow_sharp_fans(parts.base, parts.base_scheme);
+    parts.faces = std::make_unique<const FaceTypes>(parts.base, parts.base_scheme);
+  });
   return *parts.faces;
 }
 

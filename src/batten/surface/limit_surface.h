@@ -46,7 +46,8 @@ PointCurvature curvature_of(const Jet& jet);
 /// tenth of the faces are irregular, two where all are (docs/decisions/008-jets.md).
 class LimitSurface {
  public:
-  /// control: V-by-3. Throws Error(NotTriangles, BadArgument, BadShape, NotFinite, Cancelled).
+  /// control: V-by-3. Throws Error(NotTriangles, BadArgument, BadShape, NotFinite, Cancelled),
+  /// and Error(TooLarge) as SurfacePatches::pieces() does.
   LimitSurface(const SurfacePatches& patches, ConstValuesRef control, const Progress& progress = {});
   LimitSurface(const Topology& topology, const Scheme& scheme, ConstValuesRef control, const Progress& progress = {});
   ~LimitSurface();

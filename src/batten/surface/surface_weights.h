@@ -24,7 +24,7 @@ class SurfaceWeights {
  public:
   using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-  /// Throws Error(BadArgument) for the Butterflies.
+  /// Throws Error(BadArgument) for the Butterflies, Error(TooLarge) as SurfacePatches::pieces() does.
   explicit SurfaceWeights(const SurfacePatches& patches);
   /// Throws also Error(NotTriangles).
   SurfaceWeights(const Topology& topology, const Scheme& scheme, const Progress& progress = {});
