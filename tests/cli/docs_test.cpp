@@ -211,6 +211,23 @@ TEST_F(DocsReport, PageNamesEveryEntryOfEveryVerb) {
   }
 }
 
+/// docs/pictures/make runs the pages' commands and takes the pictures from out/.
+TEST(DocsPictures, AreShownAndEachHasACommand) {
+  std::string shown;
+  std::string made;
+  for (const fs::path& page : pages()) {
+    const std::string text = text_of(kSource / page);
+    shown += text;
+    for (const std::string& command : commands_of(text)) made += command + "\n";
+  }
+  for (const auto& entry : fs::directory_iterator(kSource / "docs" / "pictures")) {
+    const std::string name = entry.path().filename().string();
+    if (entry.path().extension() != ".png") continue;
+    EXPECT_NE(shown.find("pictures/" + name + ")"), std::string::npos) << "no page shows " << name;
+    EXPECT_NE(made.find(" out/" + name), std::string::npos) << "no command makes " << name;
+  }
+}
+
 TEST(DocsCommands, AreFoundInBlocksAndContinued) {
   const std::string page =
       "    ./batten info a.obj\n\ntext `./batten info b.obj`\n\n```sh\nbatten convert c.obj \\\n  -o d.ply\n```\n"
