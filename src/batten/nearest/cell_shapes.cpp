@@ -35,11 +35,6 @@ SparseRows net_rows(const RegularPatch& patch) {
   return rows;
 }
 
-/// All rows at once, with `combine` inlined: a query comes here for every ring that it halves.
-[[gnu::flatten]] void combine_rows(const SparseRows& rows, const Double4* from, Double4* to) {
-  for (Index r = 0; r < rows.count(); ++r) to[r] = combine(rows, r, from);
-}
-
 /// At least the number of weights that the product of two matrices has.
 std::size_t most_weights(const SparseRows& left, const SparseRows& right, Index columns) {
   std::size_t sum = 0;
@@ -125,6 +120,10 @@ void CellShapes<Net>::points(Index shape, const Double4* control, Double4* point
     return;
   }
   combine_rows(shapes_[shape].weights, control, points);
+}
+
+[[gnu::flatten]] void combine_rows(const SparseRows& rows, const Double4* from, Double4* to) {
+  for (Index r = 0; r < rows.count(); ++r) to[r] = combine(rows, r, from);
 }
 
 template <typename Net>

@@ -62,6 +62,9 @@ void complete_patch(const Index* rows, Double4* points) {
   complete_patch(Net::kCorners == 4, rows, reinterpret_cast<double*>(points), 4);
 }
 
+/// to[r] for each row, with `combine` inlined: a query comes here for every ring that it halves.
+void combine_rows(const SparseRows& rows, const Double4* from, Double4* to);
+
 /// The points of a ring's child: `child.rows` of the ring, completed where it is a patch.
 template <typename Net>
 void ring_child_points(const RingTypes::Child& child, const Double4* ring, Double4* points);

@@ -11,8 +11,6 @@ namespace {
 
 /// A regular cell that bends more is halved. A smaller limit would take memory, a larger one makes searches halve.
 constexpr double kMostBend = 0.3;
-/// For their boxes rings are halved so many times.
-constexpr int kBoundLevels = 2;
 
 }  // namespace
 
@@ -204,26 +202,32 @@ void SurfaceCells<Net>::find_bounds(const Control& control, const Cell& cell, Bo
     return;
   }
   bounds.of_ring.clear();
-  add_ring_bounds(cell_shape.type, points, kBoundLevels, bounds.of_ring);
+  add_ring_bounds(cell_shape.type, points, kBoundLevels, bounds);
   bounds.hull = bounds.of_ring;
   bounds.along = points[1] - points[0];  // the ring begins with the corners of its face
   bounds.across = points[Net::kCorners - 1] - points[0];
 }
 
+/// All four children's points are worked out at once, since they have many in common.
 template <typename Net>
-void SurfaceCells<Net>::add_ring_bounds(Index type, const Double4* ring, int levels,
-                                        std::vector<Double4>& bounds) const {
+void SurfaceCells<Net>::add_ring_bounds(Index type, const Double4* ring, int levels, Bounds& bounds) const {
+  const RingTypes::Step& step = patches_.ring_types().step(type);
+  std::vector<Double4>& points = bounds.steps[static_cast<std::size_t>(levels - 1)];
+  points.resize(static_cast<std::size_t>(step.rows.count()));
+  combine_rows(step.rows, ring, points.data());
   for (int number = 0; number < 4; ++number) {
-    const RingTypes::Child& child = patches_.ring_types().child(type, number);
-    std::vector<Double4> points(static_cast<std::size_t>(child.rows.count()));
-    ring_child_points<Net>(child, ring, points.data());
-    if (child.type == RingTypes::kPatch) {
-      bounds.resize(bounds.size() + Net::kPoints);
-      spline_matrix<Net>().apply(points.data(), &bounds[bounds.size() - Net::kPoints]);
+    const Buffer<Index>& places = step.children[number];
+    const Index child = patches_.ring_types().child(type, number).type;
+    std::vector<Double4>& own = bounds.child;
+    own.resize(places.size());
+    for (std::size_t i = 0; i < places.size(); ++i) own[i] = points[places[i]];
+    if (child == RingTypes::kPatch) {
+      bounds.of_ring.resize(bounds.of_ring.size() + Net::kPoints);
+      spline_matrix<Net>().apply(own.data(), &bounds.of_ring[bounds.of_ring.size() - Net::kPoints]);
     } else if (levels == 1) {
-      bounds.insert(bounds.end(), points.begin(), points.end());
+      bounds.of_ring.insert(bounds.of_ring.end(), own.begin(), own.end());
     } else {
-      add_ring_bounds(child.type, points.data(), levels - 1, bounds);
+      add_ring_bounds(child, own.data(), levels - 1, bounds);
     }
   }
 }

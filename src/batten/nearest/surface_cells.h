@@ -68,6 +68,8 @@ class SurfaceCells {
     Double4 centre{};
     double scale = 1.0;
   };
+  /// For their boxes rings are halved so many times.
+  static constexpr int kBoundLevels = 2;
   /// Points whose hull has a cell in it, and two directions along the cell; all in the tree's unit.
   struct Bounds {
     explicit Bounds(std::size_t most_points) : scratch(most_points), points(most_points) {}
@@ -76,6 +78,8 @@ class SurfaceCells {
     Index piece = -1;             ///< whose control points the scratch memory has
     std::vector<Double4> points;  ///< of the net or ring
     std::vector<Double4> of_ring;
+    std::array<std::vector<Double4>, kBoundLevels> steps;  ///< of the children of a ring, of its ring children, ...
+    std::vector<Double4> child;  ///< the ring or patch of one child, until its own children are worked out
     std::span<const Double4> hull;
     Double4 along{};
     Double4 across{};
@@ -88,7 +92,7 @@ class SurfaceCells {
   void sort_cells(const Progress& progress);
   void fit(const Control& control, BoxTree& tree, const Progress& progress) const;
   void find_bounds(const Control& control, const Cell& cell, Bounds& bounds) const;
-  void add_ring_bounds(Index type, const Double4* ring, int levels, std::vector<Double4>& bounds) const;
+  void add_ring_bounds(Index type, const Double4* ring, int levels, Bounds& bounds) const;
 
   SurfacePatches patches_;
   CellShapes<Net> shapes_;
