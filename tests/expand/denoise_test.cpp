@@ -252,10 +252,48 @@ TEST(Denoise, KeepsFeaturesSharp) {
   const DenoiseResult result = denoise(mesh, test::kCatmullClark, options);
   EXPECT_LT(error(result.points), 0.6 * error(mesh.points));
   EXPECT_LT(error(result.points), 0.4 * blunt);
+  // The corners go where their three sides meet.
+  double before = 0.0;
+  double after = 0.0;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    if (sides_of(clean.points, v) == 3) {
-      EXPECT_TRUE((result.points.row(v).array() == mesh.points.row(v).array()).all());
+    if (sides_of(clean.points, v) != 3) continue;
+    before += (mesh.points.row(v) - clean.points.row(v)).squaredNorm();
+    after += (result.points.row(v) - clean.points.row(v)).squaredNorm();
+  }
+  EXPECT_LT(after, 0.5 * before);
+}
+
+/// Noise that turns faces by 40 degrees and more: the angle of one edge tells nothing.
+TEST(Features, AreFoundUnderStrongNoise) {
+  const Mesh clean = fine_cube(4);
+  for (const double share : {0.2, 0.3}) {
+    Mesh mesh = clean;
+    add_noise(mesh, share, 4);
+    std::size_t right = 0;
+    const std::vector<Crease> found = find_features(Topology(mesh), mesh.points);
+    for (const Crease& crease : found) {
+      right += sides_of(clean.points, crease.a) >= 2 && sides_of(clean.points, crease.b) >= 2 ? 1 : 0;
     }
+    EXPECT_GT(right, 12U * 16U * 9 / 10) << share;
+    EXPECT_LT(found.size() - right, 12U * 16U / 10) << share;
+  }
+}
+
+TEST(Features, AreNotFoundInStrongNoiseAlone) {
+  Mesh mesh = torus(80, 40);
+  add_noise(mesh, 0.4, 4);
+  EXPECT_LT(find_features(Topology(mesh), mesh.points).size(), 80U);
+}
+
+TEST(Denoise, FeaturesDoNoHarm) {
+  for (const double share : {0.05, 0.1, 0.2, 0.4}) {
+    Mesh mesh = torus(80, 40);
+    add_noise(mesh, share, 7);
+    DenoiseOptions options;
+    options.automatic = true;
+    const double without = torus_error(denoise(mesh, test::kCatmullClark, options).points);
+    options.features = true;
+    EXPECT_LE(torus_error(denoise(mesh, test::kCatmullClark, options).points), 1.02 * without) << share;
   }
 }
 

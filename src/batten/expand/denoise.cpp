@@ -1,6 +1,11 @@
 #include "batten/expand/denoise.h"
 
+#include <optional>
+#include <utility>
+#include <vector>
+
 #include "batten/error.h"
+#include "batten/expand/crease_corners.h"
 #include "batten/expand/movement.h"
 #include "batten/expand/point_series.h"
 #include "batten/expand/volume.h"
@@ -33,6 +38,69 @@ MeshSeries make_series(const Topology& topology, const Scheme& scheme, SeriesMat
   return {topology, scheme, options, progress_within(progress, 0.6, 1.0)};
 }
 
+/// A mesh on its way through the smoothing.
+struct Smoothing {
+  MeshSeries series;
+  Values normals;
+  NoiseEstimate noise;
+  SmoothingChoice choice;
+  Points points;
+};
+
+Smoothing smooth(const Topology& topology, const Scheme& scheme, ConstValuesRef points, const DenoiseOptions& options,
+                 const Progress& progress) {
+  const Buffer<std::uint8_t> kept = options.keep_boundary ? boundary_marks(topology) : Buffer<std::uint8_t>();
+  Smoothing work{
+      make_series(topology, scheme, options.matrix, kept, points, progress_within(progress, 0.0, 0.1)),
+      limit_normals(topology, scheme, points, LimitMasks::Exact, progress_within(progress, 0.1, 0.2)).vertices,
+      {},
+      {},
+      Points(0, 3)};
+  work.noise = estimate_noise(work.series, points, work.normals, progress_within(progress, 0.2, 0.3));
+  work.choice.m = options.m;
+  work.choice.passes = options.passes;
+  if (options.automatic) {
+    work.choice =
+        choose_smoothing(work.series, points, work.normals, work.noise.deviation, progress_within(progress, 0.3, 0.8));
+  }
+  work.points = work.series.smooth(points, work.choice.m, work.choice.passes, progress_within(progress, 0.8, 1.0));
+  return work;
+}
+
+/// Corners keep their position in the smoothing, with its noise. They go where the smoothed sides around them meet, and
+/// the rest is smoothed again from there.
+void settle_corners(const Topology& given, const Topology& creased, ConstValuesRef points, Smoothing& work,
+                    const Progress& progress) {
+  constexpr double kFarthest = 5.0;  // of the noise's standard deviation
+  const std::vector<Index> corners = found_corners(given, creased);
+  if (corners.empty()) return;
+  Points start = points;
+  start(corners, Eigen::all) = corner_places(creased, corners, work.points, points, kFarthest * work.noise.deviation);
+  work.points = work.series.smooth(start, work.choice.m, work.choice.passes, progress);
+}
+
+/// Smooths along the sharp edges that were found, unless they are so many or so wrong that the error to expect is
+/// smaller without them. Returns the topology of the smoothing in `work`.
+Topology smooth_along(const Topology& given, const Scheme& scheme, ConstValuesRef points, const DenoiseOptions& options,
+                      DenoiseResult& result, std::optional<Smoothing>& work, const Progress& progress) {
+  // The edges were chosen by the noise that is to be removed, which makes the estimate for them too small.
+  constexpr double kClearGain = 0.9;
+  const Topology creased = with_creases(given, points, result.features, progress_within(progress, 0.0, 0.1));
+  work.emplace(smooth(creased, scheme, points, options, progress_within(progress, 0.1, 0.5)));
+  settle_corners(given, creased, points, *work, progress_within(progress, 0.5, 0.6));
+  if (!options.automatic || given.vertex_count() < kFewestForNoise) return creased;
+  Smoothing plain = smooth(given, scheme, points, options, progress_within(progress, 0.6, 0.9));
+  const auto error_of = [&](const Smoothing& one) {
+    return expected_error(one.series, points, plain.normals, plain.noise.deviation, one.choice,
+                          progress_within(progress, 0.9, 1.0));
+  };
+  if (error_of(*work) <= kClearGain * error_of(plain)) return creased;
+  result.features_left_out = static_cast<Index>(result.features.size());
+  result.features.clear();
+  work.emplace(std::move(plain));
+  return given;
+}
+
 }  // namespace
 
 DenoiseResult denoise(const Mesh& mesh, const Scheme& scheme, const DenoiseOptions& options, const Progress& progress) {
@@ -46,37 +114,29 @@ DenoiseResult denoise(const Topology& given, const Scheme& scheme, ConstValuesRe
   if (options.passes < 0) throw Error(ErrorCode::BadArgument, "passes must not be negative");
   DenoiseResult result;
   Topology topology = given;
+  std::optional<Smoothing> work;
   if (options.features) {
-    result.features = find_features(topology, points, options.feature_options, progress_within(progress, 0.0, 0.1));
-    if (!result.features.empty()) {
-      topology = with_creases(given, points, result.features, progress_within(progress, 0.1, 0.2));
-    }
+    result.features = find_features(topology, points, options.feature_options, progress_within(progress, 0.0, 0.2));
   }
-  const Buffer<std::uint8_t> kept = options.keep_boundary ? boundary_marks(topology) : Buffer<std::uint8_t>();
-  const MeshSeries series =
-      make_series(topology, scheme, options.matrix, kept, points, progress_within(progress, 0.2, 0.3));
-  const Values normals =
-      limit_normals(topology, scheme, points, LimitMasks::Exact, progress_within(progress, 0.3, 0.4)).vertices;
-  result.noise = estimate_noise(series, points, normals, progress_within(progress, 0.4, 0.5));
-  result.smoothing.m = options.m;
-  result.smoothing.passes = options.passes;
-  if (options.automatic) {
-    result.smoothing =
-        choose_smoothing(series, points, normals, result.noise.deviation, progress_within(progress, 0.5, 0.8));
+  if (result.features.empty()) {
+    work.emplace(smooth(topology, scheme, points, options, progress_within(progress, 0.2, 0.95)));
+  } else {
+    topology = smooth_along(given, scheme, points, options, result, work, progress_within(progress, 0.2, 0.95));
   }
-  result.points =
-      series.smooth(points, result.smoothing.m, result.smoothing.passes, progress_within(progress, 0.8, 0.95));
+  result.noise = work->noise;
+  result.smoothing = work->choice;
+  result.points = std::move(work->points);
   const ComponentVolumes before = component_volumes(topology, points);
   result.closed_components = before.closed_count();
   result.volume_before = before.sum();
-  if (options.keep_volume) result.scaled_components = restore_volumes(series, before, result.points);
+  if (options.keep_volume) result.scaled_components = restore_volumes(work->series, before, result.points);
   report_progress(progress, 0.97);
   result.volume_after = component_volumes(topology, result.points).sum();
   const Movement movement = measure_movement(points, result.points);
   result.moved = movement.rms;
   result.most_moved = movement.most;
   result.most_moved_vertex = movement.vertex;
-  result.removed = measure_movement_along(normals, points, result.points);
+  result.removed = measure_movement_along(work->normals, points, result.points);
   return result;
 }
 

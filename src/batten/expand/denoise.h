@@ -27,6 +27,7 @@ struct DenoiseResult {
   double most_moved = 0.0;
   Index most_moved_vertex = -1;
   std::vector<Crease> features;  ///< the sharp edges that were found
+  Index features_left_out = 0;   ///< found, but not used: options.automatic expects no clearly smaller error with them
   Index closed_components = 0;
   Index scaled_components = 0;  ///< components whose volume was kept
   double volume_before = 0.0;   ///< of all closed components together, in cubes of the unit
@@ -34,7 +35,8 @@ struct DenoiseResult {
 };
 
 /// Applies Lai and Cheng's smoothing (8) to the points of a mesh. Creases, given or found, and boundaries are smoothed
-/// along themselves; corners, and vertices where three creases or boundaries meet, keep their position. Cotangents are
+/// along themselves; corners, and vertices where three creases or boundaries meet, keep their position, but those where
+/// found edges meet go where the smoothed sides around them do. Cotangents are
 /// those of the mesh after eight passes of the limit matrix with m = 2, because cotangents of the noisy mesh would be
 /// noisy. O(H) for each pass. Throws Error: NotTriangles, NotFinite, BadArgument (m, passes, an angle), Cancelled, and
 /// what Topology throws.

@@ -55,12 +55,23 @@ struct Removed {
   double trace = 0.0;    ///< of the smoothing matrix
 };
 
+enum class Where { Measured, Everywhere };
+
+/// The points and random signs, the same at every run.
+Values with_signs(ConstValuesRef points) {
+  Values start(points.rows(), 4);
+  std::mt19937_64 generator(kSeed);
+  for (Eigen::Index v = 0; v < points.rows(); ++v)
+    start.row(v) << points(v, 0), points(v, 1), points(v, 2), generator() % 2 ? 1.0 : -1.0;
+  return start;
+}
+
 /// start: the points and random signs; now: the same after smoothing.
-Removed measure(const MeshSeries& series, const Values& start, const Values& now, ConstValuesRef normals) {
+Removed measure(const MeshSeries& series, const Values& start, const Values& now, ConstValuesRef normals, Where where) {
   const auto rows = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     Removed sums;
     for (std::ptrdiff_t v = begin; v < end; ++v) {
-      if (!is_measured(series, static_cast<Index>(v))) continue;
+      if (where == Where::Measured && !is_measured(series, static_cast<Index>(v))) continue;
       double along = 0.0;
       for (int c = 0; c < 3; ++c) along += (start(v, c) - now(v, c)) * normals(v, c);
       sums.squares += along * along;
@@ -98,6 +109,17 @@ NoiseEstimate estimate_noise(const MeshSeries& series, ConstValuesRef points, Co
   return estimate;
 }
 
+double expected_error(const MeshSeries& series, ConstValuesRef points, ConstValuesRef normals, double deviation,
+                      const SmoothingChoice& choice, const Progress& progress) {
+  require_points(series, points, normals);
+  const Values start = with_signs(points);
+  const Values now = series.smooth(start, choice.m, choice.passes, progress);
+  const Removed removed = measure(series, start, now, normals, Where::Everywhere);
+  const double variance = deviation * deviation;
+  const auto count = static_cast<double>(std::max<Eigen::Index>(points.rows(), 1));
+  return std::sqrt(std::max((removed.squares + 2.0 * variance * removed.trace) / count - variance, 0.0));
+}
+
 SmoothingChoice choose_smoothing(const MeshSeries& series, ConstValuesRef points, ConstValuesRef normals,
                                  double deviation, const Progress& progress) {
   require_points(series, points, normals);
@@ -110,10 +132,7 @@ SmoothingChoice choose_smoothing(const MeshSeries& series, ConstValuesRef points
   SmoothingChoice best;
   best.expected_error = deviation;
   if (measured == 0 || !(deviation > 0.0)) return best;
-  Values start(count, 4);
-  std::mt19937_64 generator(kSeed);
-  for (Index v = 0; v < count; ++v)
-    start.row(v) << points(v, 0), points(v, 1), points(v, 2), generator() % 2 ? 1.0 : -1.0;
+  const Values start = with_signs(points);
   const double variance = deviation * deviation;
   double least = variance;
   for (int m = 2; m >= 0; --m) {
@@ -127,7 +146,7 @@ SmoothingChoice choose_smoothing(const MeshSeries& series, ConstValuesRef points
       };
       now = series.smooth(now, m, stop - passes, progress_within(progress, done(passes), done(stop)));
       passes = stop;
-      const Removed removed = measure(series, start, now, normals);
+      const Removed removed = measure(series, start, now, normals, Where::Measured);
       const double error = (removed.squares + 2.0 * variance * removed.trace) / measured - variance;
       if (error < least) {
         least = error;

@@ -33,4 +33,10 @@ struct SmoothingChoice {
 SmoothingChoice choose_smoothing(const MeshSeries& series, ConstValuesRef points, ConstValuesRef normals,
                                  double deviation, const Progress& progress = {});
 
+/// The root mean square, along the normals, of the error to expect of a choice, over all vertices, those on creases and
+/// corners too. Estimated as in choose_smoothing, so that smoothings of the same points under other creases can be
+/// compared. Throws as estimate_noise does.
+double expected_error(const MeshSeries& series, ConstValuesRef points, ConstValuesRef normals, double deviation,
+                      const SmoothingChoice& choice, const Progress& progress = {});
+
 }  // namespace batten
