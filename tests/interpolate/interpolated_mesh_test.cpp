@@ -5,6 +5,7 @@
 #include "batten/error.h"
 #include "batten/io/io.h"
 #include "batten/mesh/primitives.h"
+#include "batten/refine/refined_mesh.h"
 #include "batten/refine/refinement.h"
 #include "io/io_test_tools.h"
 #include "support/shapes.h"
@@ -89,7 +90,7 @@ TEST(InterpolatedMesh, GroupsMaterialsAndTextureFollowTheFacesOfACubeThatIsRefin
   for (const Attribute& attribute : control.attributes) EXPECT_NE(attribute.name, "normal");
 }
 
-TEST(InterpolatedMesh, TagsOfAnotherComponentAreRefinedWithTheCube) {
+TEST(InterpolatedMesh, AnotherComponentStaysAsItIsBesideTheCubeThatIsRefined) {
   Mesh given = beside(dressed_cube(), grid(5, 4), {6, 0, 0});
   given.attributes.clear();
   given.creases = {{given.face_vertices[24 + 1], given.face_vertices[24 + 2], 1.5}};
@@ -97,11 +98,55 @@ TEST(InterpolatedMesh, TagsOfAnotherComponentAreRefinedWithTheCube) {
   given.holes = {9};
   const InterpolatedMesh result = interpolate(given);
   ASSERT_TRUE(result.is_refined);
-  // The boundary's edges are written as sharp ones.
-  const auto semi_sharp = [](const Crease& crease) { return crease.sharpness < kInfiniteSharpness; };
-  EXPECT_EQ(std::count_if(result.mesh.creases.begin(), result.mesh.creases.end(), semi_sharp), 2);
+  EXPECT_EQ(result.mesh.vertex_count(), given.vertex_count() + 12 + 6);
+  EXPECT_EQ(result.mesh.face_count(), 24 + 20);
+  ASSERT_EQ(result.mesh.creases.size(), 1U);
+  EXPECT_EQ(result.mesh.creases[0].sharpness, 1.5);
   EXPECT_EQ(result.mesh.corners.size(), 1U);
-  EXPECT_EQ(result.mesh.holes, (std::vector<Index>{36, 37, 38, 39}));
+  EXPECT_EQ(result.mesh.holes, (std::vector<Index>{24 + 3}));
+  for (std::ptrdiff_t c = 24; c < static_cast<std::ptrdiff_t>(given.face_vertices.size()); ++c) {
+    EXPECT_EQ(result.mesh.face_vertices[c + 24 * 3], given.face_vertices[c]);
+  }
+  EXPECT_LE(missed(result.mesh, result.mesh.points, given.points), 1e-10 * bounding_diagonal(given.points));
+  // Each component is what it is by itself.
+  const Mesh alone = interpolate(dressed_cube()).mesh;
+  EXPECT_LE((result.mesh.points.topRows(8) - alone.points.topRows(8)).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LE((result.mesh.points.bottomRows(18) - alone.points.bottomRows(18)).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(InterpolatedMesh, ComponentsInAnyOrderKeepGroupsAndTexture) {
+  const Mesh dressed = dressed_cube();
+  Mesh given = beside(grid(2, 2), dressed, {6, 0, 0});
+  given.groups = {{"g", "sheet", 0}, {"g", "cube", 4}, {"g", "half", 6}};
+  Values uv(28, 2);
+  uv.topRows(24) = attribute_of(dressed, "uv").values;
+  uv.bottomRows(4) << 0, 0, 1, 0, 1, 1, 0, 1;
+  Buffer<Index> rows{24, 25, 26, 27, 24, 25, 26, 27, 24, 25, 26, 27, -1, -1, -1, -1};
+  const Attribute& own = attribute_of(dressed, "uv");
+  rows.insert(rows.end(), own.corner_rows.begin(), own.corner_rows.end());
+  given.attributes = {{"uv", uv, rows}, {"height", given.points.col(2), {}}};
+  const InterpolatedMesh result = interpolate(given);
+  ASSERT_EQ(result.mesh.face_count(), 4 + 24);
+  EXPECT_EQ(result.mesh.groups[1].first_face, 4);
+  EXPECT_EQ(result.mesh.groups[2].first_face, 4 + 8);
+  const Attribute& refined = attribute_of(result.mesh, "uv");
+  EXPECT_TRUE(std::equal(rows.begin(), rows.begin() + 16, refined.corner_rows.begin()));
+  EXPECT_EQ(refined.values.topRows(28), uv);
+  const Attribute whole = refine_at_corners(Topology(given), SchemeKind::CatmullClark, given.attributes[0]);
+  EXPECT_LT(refined.values.rows(), whole.values.rows());
+  for (std::ptrdiff_t c = 0; c < 96; ++c) {
+    EXPECT_EQ(refined.values.row(refined.corner_rows[16 + c]), whole.values.row(whole.corner_rows[64 + c]));
+  }
+  EXPECT_LE(missed(result.mesh, attribute_of(result.mesh, "height").values, given.points.col(2)), 1e-9);
+}
+
+TEST(InterpolatedMesh, EverythingIsRefinedWhereThatIsAsked) {
+  Mesh given = beside(dressed_cube(), grid(5, 4), {6, 0, 0});
+  given.attributes.clear();
+  InterpolateOptions options;
+  options.refined = RefinedExtent::Everything;
+  const InterpolatedMesh result = interpolate(given, options);
+  EXPECT_EQ(result.mesh.face_count(), 24 + 80);
   EXPECT_LE(missed(result.mesh, result.mesh.points, given.points), 1e-10 * bounding_diagonal(given.points));
 }
 

@@ -163,6 +163,8 @@ Values SurfaceNoise::values(ConstValuesRef points, std::span<const NoiseOptions>
   const std::vector<Octave> octaves = octaves_of(noises, edge_length(topology_, places), levels());
   Values control;  // of all coarser levels; empty while there is none
   Scheme scheme = scheme_;
+  InterpolateOptions whole_steps;  // a refined component alone would be no step of the levels
+  whole_steps.refined = RefinedExtent::Everything;
   for (int i = 0; i < levels(); ++i) {
     const double begin = i > 0 ? std::ldexp(1.0, -2 * (levels() - i)) : 0.0;
     const double end = std::ldexp(1.0, -2 * (levels() - i - 1));
@@ -173,7 +175,7 @@ Values SurfaceNoise::values(ConstValuesRef points, std::span<const NoiseOptions>
       const Values numbers =
           numbers_at(octaves, i, places, Values(level(i).vertex_count(), static_cast<Eigen::Index>(noises.size())),
                      progress_within(part, 0.1, 0.5));
-      Interpolant through = Interpolator(level(i), scheme, {}, progress_within(part, 0.5, 0.6))
+      Interpolant through = Interpolator(level(i), scheme, whole_steps, progress_within(part, 0.5, 0.6))
                                 .solve(numbers, progress_within(part, 0.6, 0.9));
       const bool is_refined = through.topology.vertex_count() > level(i).vertex_count();
       Values own = is_refined ? std::move(through.control)

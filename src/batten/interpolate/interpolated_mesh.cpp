@@ -1,6 +1,7 @@
 #include "batten/interpolate/interpolated_mesh.h"
 
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -15,19 +16,29 @@ namespace {
 
 constexpr double kSolved = 0.9;  // of the time
 
-/// The mesh refined once without its values at vertices: those are the caller's.
-Mesh refined_labels(const Topology& topology, const Topology& child, SchemeKind kind, Mesh mesh) {
+/// The mesh refined once without its values at vertices: those are the caller's. `step` has what refines the rest.
+template <typename Step>
+Mesh refined_labels(const Topology& child, const Step& step, Mesh mesh) {
   Mesh refined = mesh_from_topology(child);
-  refined.groups = refine_groups(topology, kind, std::move(mesh.groups));
+  refined.groups = step.groups(std::move(mesh.groups));
   refined.material_libraries = std::move(mesh.material_libraries);
   refined.crease_method = mesh.crease_method;
   refined.triangle_rule = mesh.triangle_rule;
   for (Attribute& attribute : mesh.attributes) {
-    if (attribute.per_corner()) attribute = refine_at_corners(topology, kind, attribute);
+    if (attribute.per_corner()) attribute = step.at_corners(attribute);
   }
   refined.attributes = std::move(mesh.attributes);
   return refined;
 }
+
+/// A step on all components, as PartRefinement is one on some.
+struct WholeStep {
+  const Topology& topology;
+  SchemeKind kind;
+
+  Attribute at_corners(const Attribute& attribute) const { return refine_at_corners(topology, kind, attribute); }
+  std::vector<Group> groups(std::vector<Group> given) const { return refine_groups(topology, kind, std::move(given)); }
+};
 
 /// Where the scheme itself has alpha, the surface is an ordinary one from its first step on.
 void make_ordinary(const Scheme& scheme, std::vector<Interpolant>& results, const Progress& progress) {
@@ -62,9 +73,11 @@ InterpolatedMesh interpolate(const Interpolator& interpolator, Mesh mesh, const 
   make_ordinary(interpolator.scheme(), results, progress_within(progress, kSolved, 1.0));
   InterpolatedMesh result{{}, results.front().topology, results.front().scheme, {}, false};
   result.is_refined = result.topology.vertex_count() != interpolator.topology().vertex_count();
-  result.mesh = result.is_refined ? refined_labels(interpolator.topology(), result.topology, interpolator.scheme().kind,
-                                                   std::move(mesh))
-                                  : std::move(mesh);
+  const std::shared_ptr<const PartRefinement> part = results.front().part;
+  const WholeStep whole{interpolator.topology(), interpolator.scheme().kind};
+  result.mesh = !result.is_refined ? std::move(mesh)
+                : part != nullptr  ? refined_labels(result.topology, *part, std::move(mesh))
+                                   : refined_labels(result.topology, whole, std::move(mesh));
   auto solved = results.begin();
   result.mesh.points = solved->control;
   for (Attribute& attribute : result.mesh.attributes) {

@@ -13,13 +13,14 @@ struct InterpolatedMesh {
   Topology topology;                         ///< of `mesh`
   Scheme scheme;                             ///< of its surface, without alpha
   std::vector<InterpolationReport> reports;  ///< of the points, then of each attribute at vertices, in their order
-  bool is_refined = false;  ///< once, because alpha acts in the first step only; vertices given keep their numbers
+  /// Some components or all, once, because alpha acts in the first step only; vertices given keep their numbers.
+  bool is_refined = false;
 
   bool converged() const;
 };
 
 /// The control mesh whose surface passes through the mesh's points and has its colours and other attributes there. What
-/// else the mesh holds is kept, and where the result is refined, refined with it: creases, corners, holes, attributes
+/// else the mesh holds is kept, and where a component is refined, refined with it: creases, corners, holes, attributes
 /// at corners (texture coordinates), groups, materials. Normals are dropped: control points have none.
 /// mesh: of the interpolator's topology. Throws what Interpolator::solve does, and names the attribute.
 InterpolatedMesh interpolate(const Interpolator& interpolator, Mesh mesh, const Progress& progress = {});

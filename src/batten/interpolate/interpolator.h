@@ -3,7 +3,7 @@
 /// A is the V-by-V limit matrix (limit/limit_matrix.h): row i takes control points P (V-by-k) to the limit position of
 /// vertex i. Interpolating targets Q means solving A P = Q. Corners are their targets; crease and boundary curves are
 /// solved one by one (tridiagonal); then the smooth vertices. Connectivity stays as it is, except where a component's
-/// system is singular and OnSingular::Alpha acts: then the result is the control mesh refined once, because other
+/// system is singular and OnSingular::Alpha acts: then the result has that component refined once, because other
 /// refinement rules act in the first step only. Either way the result is an ordinary Catmull-Clark or Loop surface.
 ///
 /// Each component is held to the tolerance of its own bounding box, and is solved relative to its own centre where
@@ -16,12 +16,19 @@
 
 #include "batten/interpolate/interpolation_report.h"
 #include "batten/limit/limit_matrix.h"
+#include "batten/refine/part_refinement.h"
 #include "batten/refine/refinement.h"
 #include "batten/solve/solver.h"
 
 namespace batten {
 
 class InterpolationSystem;
+
+/// What is refined once where OnSingular::Alpha acts.
+enum class RefinedExtent {
+  Components,  ///< those on which alpha acts; all under BoundaryRule::None
+  Everything
+};
 
 /// How to interpolate.
 struct InterpolateOptions {
@@ -31,6 +38,7 @@ struct InterpolateOptions {
   int max_iterations = 20000;
   OnSingular on_singular = OnSingular::Alpha;
   LimitMasks masks = LimitMasks::Exact;
+  RefinedExtent refined = RefinedExtent::Components;
 };
 
 /// Values at the vertices that the surface shall have there, and what messages call them.
@@ -41,10 +49,11 @@ struct Targets {
 
 /// A surface through the targets: control points, and the connectivity and scheme that make a surface of them.
 struct Interpolant {
-  Topology topology;  ///< the one given, or that refined once where OnSingular::Alpha acted
+  Topology topology;  ///< the one given, or where OnSingular::Alpha acted, that with some components refined once
   Scheme scheme;      ///< the one given, and where the topology is refined, of the steps after the first
   Values control;     ///< one row a vertex of `topology`, in the unit of the targets; row i < V belongs to target i
   InterpolationReport report;
+  std::shared_ptr<const PartRefinement> part = nullptr;  ///< where some, but not all, components were refined
 };
 
 /// Solves A P = Q for one connectivity and many Q: build once, solve per frame.

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "batten/interpolate/component_solve.h"
+#include "batten/refine/part_refinement.h"
 #include "batten/refine/refined_values.h"
 
 namespace batten {
@@ -291,14 +293,17 @@ class JointSolve {
   std::vector<Interpolant> finish() {
     std::optional<LimitMatrix> refined;
     if (damped_) {
-      refined.emplace(system_.refined(rising(1.0, 1.0)), system_.scheme().after_first_step(),
+      const Topology whole = system_.refined(rising(1.0, 1.0));
+      if (can_refine_parts()) part_ = std::make_shared<const PartRefinement>(topology(), whole, damped_faces());
+      refined.emplace(part_ != nullptr ? part_->topology() : whole, system_.scheme().after_first_step(),
                       LimitOptions{system_.options().masks, {}});
     }
     const LimitMatrix& surface = refined ? *refined : system_.matrix();
     std::vector<Interpolant> results;
     for (ValueSet& set : sets_) {
       if (refined) set.forget_errors();  // what is handed out is measured itself
-      results.push_back({surface.topology(), surface.scheme(), refined ? refined_control(set) : std::move(set.x), {}});
+      results.push_back(
+          {surface.topology(), surface.scheme(), refined ? refined_control(set) : std::move(set.x), {}, part_});
       Interpolant& result = results.back();
       describe(set, surface, result);
       if (result.report.outcome != Outcome::NotReached) continue;
@@ -312,7 +317,24 @@ class JointSolve {
   Values refined_control(const ValueSet& set) const {
     Values control(refined_vertex_count(topology(), system_.scheme().kind), set.x.cols());
     if (control.size() > 0) refine_values(topology(), system_.scheme(), vertex_alpha_, set.x, control.data());
-    return control;
+    return part_ != nullptr ? part_->choose(set.x, control) : control;
+  }
+
+  /// The faces of the components that alpha acts on.
+  Buffer<std::uint8_t> damped_faces() const {
+    Buffer<std::uint8_t> faces(static_cast<std::size_t>(topology().face_count()));
+    for (Index f = 0; f < topology().face_count(); ++f) {
+      faces[f] = vertex_alpha_[topology().origin(topology().face_begin(f))] != 0.0 ? 1 : 0;
+    }
+    return faces;
+  }
+
+  /// Under BoundaryRule::None the step also decides which faces are part of the surface, on all components.
+  bool can_refine_parts() const {
+    if (system_.options().refined == RefinedExtent::Everything) return false;
+    if (system_.scheme().alpha != 0.0 || system_.scheme().boundary == BoundaryRule::None) return false;
+    const Buffer<std::uint8_t> faces = damped_faces();
+    return std::find(faces.begin(), faces.end(), 0) != faces.end();
   }
 
   /// Puts the targets into x where control points went astray. True where any had.
@@ -374,6 +396,7 @@ class JointSolve {
   std::vector<std::uint8_t> takes_alpha_;  ///< of the recognised components
   std::vector<double> vertex_alpha_;       ///< empty where alpha acts nowhere but by the scheme
   std::optional<LimitMatrix> damped_;      ///< under vertex_alpha_
+  std::shared_ptr<const PartRefinement> part_;
 };
 
 }  // namespace
