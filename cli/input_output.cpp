@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
+#include "batten/io/file_paths.h"
 #include "batten/io/io.h"
 #include "batten/io/losses.h"
+#include "batten/io/materials.h"
 #include "batten/mesh/triangulate.h"
 #include "batten/refine/refinement.h"
 #include "cli/progress.h"
@@ -27,8 +31,29 @@ Mesh read_file(const std::string& path, const std::string& format, bool quiet, s
   return mesh;
 }
 
+namespace {
+
+/// Material files, and images after which materials are named, have names relative to the folder of the mesh file.
+/// Gives those that are there the names that they have from the output's folder.
+void name_from_output(const CommonArguments& arguments, Mesh& mesh) {
+  if (arguments.output.empty() || arguments.input == "-") return;
+  const auto rename = [&](std::string& name) {
+    const std::string path = io::path_named_in(arguments.input, name);
+    std::error_code error;
+    if (std::filesystem::is_regular_file(path, error)) name = io::name_in(arguments.output, path);
+  };
+  std::for_each(mesh.material_libraries.begin(), mesh.material_libraries.end(), rename);
+  if (!mesh.material_libraries.empty()) return;
+  for (Group& group : mesh.groups) {
+    if (group.keyword == "usemtl" && io::is_image_name(group.name)) rename(group.name);
+  }
+}
+
+}  // namespace
+
 Mesh read_input(const CommonArguments& arguments, nlohmann::ordered_json* repairs, std::vector<std::string>* notes) {
   Mesh mesh = read_file(arguments.input, arguments.input_format, arguments.quiet, notes);
+  name_from_output(arguments, mesh);
   if (arguments.repair) {
     RepairResult repaired = repair(mesh, {}, ProgressBar("repairing", arguments.quiet).callback());
     Table table;

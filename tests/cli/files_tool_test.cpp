@@ -46,6 +46,30 @@ TEST_F(Files, AnOutputThatIsAnInputIsRefused) {
   expect_refused("convert - --input-format obj -o mesh.obj < mesh.obj", why);
 }
 
+TEST_F(Files, AMaterialFileIsNamedFromTheOutput) {
+  fs::create_directory(path("in"));
+  write("in/square.obj", "mtllib paint.mtl\nmtllib missing.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl red\nf 1 2 3\n");
+  write("in/paint.mtl", "newmtl red\nKd 1 0 0\n");
+  EXPECT_EQ(run("convert in/square.obj -o out/deep/square.obj").status, 0);
+  EXPECT_EQ(text_of(path("out/deep/square.obj")).find("mtllib ../../in/paint.mtl\nmtllib missing.mtl\n"), 0U);
+  EXPECT_EQ(run("subdivide in/square.obj -o in/fine.obj").status, 0);
+  EXPECT_EQ(text_of(path("in/fine.obj")).find("mtllib paint.mtl\n"), 0U);
+  EXPECT_EQ(run("convert in/square.obj -o - --output-format obj").out.find("mtllib in/paint.mtl\n"), 0U);
+}
+
+TEST_F(Files, AnImageIsNamedFromTheOutput) {
+  fs::create_directory(path("in"));
+  write("in/scan.ply",
+        "ply\nformat ascii 1.0\ncomment TextureFile scan.png\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "property float z\nelement face 1\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\n"
+        "end_header\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2 6 0 0 1 0 1 1\n");
+  write("in/scan.png", "an image");
+  EXPECT_EQ(run("convert in/scan.ply -o out/scan.ply --ascii").status, 0);
+  EXPECT_NE(text_of(path("out/scan.ply")).find("comment TextureFile ../in/scan.png\n"), std::string::npos);
+  EXPECT_EQ(run("convert in/scan.ply -o in/copy.ply --ascii").status, 0);
+  EXPECT_NE(text_of(path("in/copy.ply")).find("comment TextureFile scan.png\n"), std::string::npos);
+}
+
 TEST_F(Files, AFrameThatIsAnInputIsRefused) {
   expect_refused("morph mesh-001.obj mesh.obj -o mesh.obj --frames 3", "is the file to read");
   expect_refused("morph mesh-001.obj mesh.obj -o here/mesh.obj --frames 3", "is the file to read");

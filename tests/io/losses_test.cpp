@@ -41,7 +41,7 @@ TEST(Losses, EveryFormatNamesWhatItDoesNotKeep) {
   };
   EXPECT_EQ(find_losses("m.obj", mesh), Words{"attribute 'weight'"});
   EXPECT_EQ(find_losses("m.ply", mesh),
-            with_tags({}, {"texture coordinates at corners", "groups", "materials", "smoothing groups"}));
+            with_tags({}, {"groups", "materials", "smoothing groups"}));
   const Words values = {"texture coordinates", "normals",         "colours", "attribute 'weight'", "groups",
                         "materials",           "smoothing groups"};
   EXPECT_EQ(find_losses("m.off", mesh), with_tags({}, values));
@@ -86,6 +86,17 @@ TEST(Losses, NoneIsNamedWhereTheMeshComesBackAndOneWhereItDoesNot) {
       EXPECT_EQ(find_losses("m." + format, part.second).empty(), same) << part.first << " in " << format;
     }
   }
+}
+
+TEST(Losses, PlyKeepsImagesButNoOtherMaterials) {
+  Mesh mesh = cube();
+  mesh.groups = {{"usemtl", "wood.png", 1}, {"usemtl", "untextured", 2}, {"usemtl", "stone.jpg", 4}};
+  EXPECT_EQ(find_losses("m.ply", mesh), Words{});
+  const Mesh read = round_trip(mesh, "ply");
+  ASSERT_EQ(read.groups.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(read.groups[i].name, mesh.groups[i].name);
+  mesh.groups.push_back({"usemtl", "red", 5});
+  EXPECT_EQ(find_losses("m.ply", mesh), Words{"materials"});
 }
 
 TEST(Losses, WhatReadersAssumeAnywayIsNone) {

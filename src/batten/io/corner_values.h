@@ -6,7 +6,8 @@
 
 namespace batten::io {
 
-/// An attribute that grows corner by corner. Corners of one vertex with equal values share a row.
+/// An attribute that grows corner by corner. Corners of one vertex with equal values share a row; NaN equals NaN.
+/// O(columns) a corner, whatever the valences.
 class CornerValues {
  public:
   CornerValues(std::string name, int columns) : name_(std::move(name)), columns_(columns) {}
@@ -27,12 +28,19 @@ class CornerValues {
   std::string name_;
   int columns_;
   int kept_ = columns_;
+  bool equal(Index row, const double* value) const;
+  std::size_t hash(Index vertex, const double* value) const;
+  Index add_row(Index vertex, const double* value);
+  Index find_other_row(Index vertex, const double* value);
+  void grow_table();
+
   Buffer<double> values_;
+  Buffer<Index> vertices_;  ///< of each row
   Buffer<Index> corner_rows_;
   Buffer<Index> first_;  ///< of each vertex, its first row
-  Buffer<Index> next_;   ///< of each row, the next one of its vertex
+  Buffer<Index> table_;  ///< the other rows by their hashes, twice the room or more; a power of two
+  std::size_t others_ = 0;
   bool complete_ = true;
-  bool seams_ = false;
 };
 
 }  // namespace batten::io

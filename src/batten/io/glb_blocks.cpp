@@ -2,7 +2,7 @@
 
 namespace batten::io {
 
-unsigned char* GlbBlocks::add_block(std::size_t bytes, int target, tinygltf::Accessor accessor) {
+unsigned char* GlbBlocks::add_view(std::size_t bytes, int target) {
   std::vector<unsigned char>& data = model_.buffers[0].data;
   tinygltf::BufferView view;
   view.buffer = 0;
@@ -10,10 +10,19 @@ unsigned char* GlbBlocks::add_block(std::size_t bytes, int target, tinygltf::Acc
   view.byteLength = bytes;
   view.target = target;
   data.resize(data.size() + (bytes + 3) / 4 * 4);
-  accessor.bufferView = static_cast<int>(model_.bufferViews.size());
   model_.bufferViews.push_back(view);
-  model_.accessors.push_back(std::move(accessor));
   return data.data() + view.byteOffset;
+}
+
+unsigned char* GlbBlocks::add_block(std::size_t bytes, int target, tinygltf::Accessor accessor) {
+  accessor.bufferView = static_cast<int>(model_.bufferViews.size());
+  model_.accessors.push_back(std::move(accessor));
+  return add_view(bytes, target);
+}
+
+int GlbBlocks::add_bytes(std::string_view bytes) {
+  std::memcpy(add_view(bytes.size(), 0), bytes.data(), bytes.size());
+  return static_cast<int>(model_.bufferViews.size()) - 1;
 }
 
 int GlbBlocks::add_numbers(const double* numbers, std::ptrdiff_t count) {

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 #include <string>
+#include <string_view>
 
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
@@ -64,12 +65,16 @@ class GlbBlocks {
     return static_cast<int>(model_.accessors.size()) - 1;
   }
 
+  /// Appends bytes that are no numbers. Returns the buffer view's index.
+  int add_bytes(std::string_view bytes);
+
   /// Adds the bounds of an accessor of `components` floats, computed from the floats.
   void add_bounds(int accessor, int components = 3);
 
  private:
   /// target: the block's use on a graphics card, or 0.
   unsigned char* add_block(std::size_t bytes, int target, tinygltf::Accessor accessor);
+  unsigned char* add_view(std::size_t bytes, int target);
 
   tinygltf::Model& model_;
 };

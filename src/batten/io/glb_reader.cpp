@@ -8,12 +8,15 @@
 #include <filesystem>
 #include <limits>
 #include <set>
+#include <system_error>
 
 #include "batten/error.h"
 #include "batten/io/corner_values.h"
 #include "batten/io/faces.h"
 #include "batten/io/formats.h"
 #include "batten/io/glb_accessor.h"
+#include "batten/io/glb_materials.h"
+#include "batten/io/glb_model.h"
 #include "batten/io/vertex_welder.h"
 #include "batten/progress.h"
 
@@ -21,61 +24,8 @@ namespace batten::io {
 
 namespace {
 
-constexpr const char* kPackings[] = {"KHR_draco_mesh_compression", "EXT_meshopt_compression"};
-
 [[noreturn]] void fail(const std::string& name, const std::string& what) {
   throw Error(ErrorCode::BadFile, name + ": " + what);
-}
-
-/// The first line of a message.
-std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
-
-/// Meshes need no images; decoding them would take most of the time.
-bool skip_image(tinygltf::Image* /*image*/, const int /*index*/, std::string* /*error*/, std::string* /*warning*/,
-                int /*width*/, int /*height*/, const unsigned char* /*bytes*/, int /*size*/, void* /*user*/) {
-  return true;
-}
-
-/// A packed mesh is refused by the name of its packing, which an export option of the other program turns off.
-[[noreturn]] void refuse_packed(const std::string& name, const std::string& packing) {
-  throw Error(ErrorCode::BadFile,
-              name + ": the mesh is packed by " + packing + ", which is not read; export it again without compression");
-}
-
-tinygltf::Model load_model(const Source& source) {
-  tinygltf::Model model;
-  tinygltf::TinyGLTF loader;
-  loader.SetImageLoader(skip_image, nullptr);
-  std::string error;
-  std::string warning;
-  const std::string folder = std::filesystem::path(source.name).parent_path().string();
-  if (source.bytes.size() > std::numeric_limits<unsigned int>::max()) {
-    throw Error(ErrorCode::TooLarge, source.name + ": a glTF file has at most 4 GiB");
-  }
-  const auto size = static_cast<unsigned int>(source.bytes.size());
-  bool loaded = false;
-  try {
-    loaded =
-        source.bytes.substr(0, 4) == "glTF"
-            ? loader.LoadBinaryFromMemory(&model, &error, &warning,
-                                          reinterpret_cast<const unsigned char*>(source.bytes.data()), size, folder)
-            : loader.LoadASCIIFromString(&model, &error, &warning, source.bytes.data(), size, folder);
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& exception) {
-    error = exception.what();
-  }
-  if (loaded) return model;
-  // A packed file may lack the buffers that tinygltf looks for.
-  for (const char* packing : kPackings) {
-    if (source.bytes.find(packing) != std::string_view::npos) refuse_packed(source.name, packing);
-  }
-  fail(source.name, error.empty() ? "this is no glTF 2.0 file" : first_line(error));
-}
-
-double srgb_from_linear(double value) {
-  const double clamped = std::clamp(value, 0.0, 1.0);
-  return clamped <= 0.0031308 ? 12.92 * clamped : 1.055 * std::pow(clamped, 1.0 / 2.4) - 0.055;
 }
 
 /// The node's own matrix.
@@ -93,11 +43,12 @@ Eigen::Matrix4d matrix_of(const tinygltf::Node& node) {
 
 class GltfReader {
  public:
-  explicit GltfReader(const Source& source) : source_(source), model_(load_model(source)) {}
+  explicit GltfReader(const Source& source)
+      : source_(source), model_(load_gltf(source)), materials_(source.name, model_) {}
 
   Mesh read() {
     for (const std::string& extension : model_.extensionsRequired) {
-      for (const char* packing : kPackings) {
+      for (const char* packing : kGltfPackings) {
         if (extension == packing) refuse_packed(source_.name, packing);
       }
     }
@@ -205,7 +156,7 @@ class GltfReader {
   void add_primitive(const tinygltf::Primitive& primitive, const Eigen::Matrix4d& matrix, Index first_vertex,
                      VertexWelder& welder) {
     report_progress(source_.progress, 0.0);
-    if (primitive.extensions.count(kPackings[0]) > 0) refuse_packed(source_.name, kPackings[0]);
+    if (primitive.extensions.count(kGltfPackings[0]) > 0) refuse_packed(source_.name, kGltfPackings[0]);
     const bool triangles = primitive.mode < 0 || primitive.mode == TINYGLTF_MODE_TRIANGLES ||
                            primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP ||
                            primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN;
@@ -217,13 +168,24 @@ class GltfReader {
     const Values places = values_of(primitive, "POSITION", 3);
     const std::vector<Index> corners = corners_of(primitive, places.rows());
     const std::vector<Index> vertices = weld(places, corners, first_vertex, welder);
-    if (primitive.material >= 0 && static_cast<std::size_t>(primitive.material) < model_.materials.size()) {
-      const std::string& name = model_.materials[static_cast<std::size_t>(primitive.material)].name;
-      add_group("usemtl", name.empty() ? "material " + std::to_string(primitive.material) : name);
-    }
+    add_group("usemtl", gltf_material_name(model_, primitive.material));
+    add_material(primitive.material, primitive.attributes.count("COLOR_0") > 0);
     const Eigen::Matrix3d linear = matrix.topLeftCorner<3, 3>();
     add_triangles(corners, primitive.mode, linear.determinant() < 0.0, vertices,
                   shown_values(primitive, linear, places.rows()));
+  }
+
+  /// The file itself is the library that says how its materials look.
+  void add_material(int material, bool colored) {
+    if (!materials_.has_look(material, colored)) return;
+    materials_.examine(material);
+    std::error_code error;
+    const std::filesystem::path path = std::filesystem::absolute(source_.name, error);
+    if (error || !is_gltf_library(source_.name) || !std::filesystem::is_regular_file(path, error)) {
+      skipped_.insert("colours and images of materials");
+    } else if (mesh_.material_libraries.empty()) {
+      mesh_.material_libraries.push_back(path.string());
+    }
   }
 
   /// The mesh's vertices of those of the primitive that have corners, and -1 for the others. Several primitives may
@@ -322,7 +284,7 @@ class GltfReader {
 
   void note_skipped() {
     if (!model_.animations.empty()) skipped_.insert("animations");
-    if (!model_.images.empty()) skipped_.insert("images");
+    materials_.tell(skipped_);
     std::string names;
     for (const std::string& name : skipped_) names += (names.empty() ? "" : ", ") + name;
     if (!names.empty()) note(source_, "parts that are skipped: " + names);
@@ -330,6 +292,7 @@ class GltfReader {
 
   const Source& source_;
   tinygltf::Model model_;
+  GltfMaterials materials_;
   Buffer<double> points_;
   FaceList faces_;
   CornerValues uvs_{"uv", 2};

@@ -12,6 +12,7 @@
 #include "batten/io/float_frame.h"
 #include "batten/io/formats.h"
 #include "batten/io/glb_blocks.h"
+#include "batten/io/glb_materials.h"
 #include "batten/io/merged_corners.h"
 #include "batten/mesh/triangulate.h"
 
@@ -39,12 +40,6 @@ class FileStream : public std::streambuf {
   OutputFile& file_;
 };
 
-/// Colours of meshes and pictures are sRGB; those of glTF are linear.
-double linear_from_srgb(double value) {
-  const double clamped = std::clamp(value, 0.0, 1.0);
-  return clamped <= 0.04045 ? clamped / 12.92 : std::pow((clamped + 0.055) / 1.055, 2.4);
-}
-
 /// The model that tinygltf writes: one mesh with a primitive for each material, all with the same vertices.
 class SurfaceModel {
  public:
@@ -64,7 +59,9 @@ class SurfaceModel {
       throw Error(ErrorCode::BadShape, name + ": GLB holds triangles only, and the mesh has no face; write xyz or ply");
     }
     const std::vector<FaceSet> sets = faces_by_material(mesh);
-    GlbBlocks blocks(name, model_, byte_count() + 4 * sets.size());
+    materials_ = find_materials(name, mesh);
+    GltfImages images(materials_);
+    GlbBlocks blocks(name, model_, byte_count() + images.byte_count() + 4 * sets.size());
     const std::map<std::string, int> attributes = add_attributes(blocks);
     const std::vector<std::map<std::string, int>> targets = add_targets(blocks);
     model_.meshes.emplace_back();
@@ -76,13 +73,14 @@ class SurfaceModel {
       primitive.mode = TINYGLTF_MODE_TRIANGLES;
       primitive.attributes = attributes;
       primitive.targets = targets;
-      primitive.material = add_material(set.name);
+      primitive.material = add_material(set, images);
       const auto fill = [&](const auto& put) { put_triangles(set, triangles, put); };
       const std::size_t count = 3 * static_cast<std::size_t>(triangles.back());
       primitive.indices = short_indices() ? blocks.add_indices<std::uint16_t>(count, fill)
                                           : blocks.add_indices<std::uint32_t>(count, fill);
       model_.meshes[0].primitives.push_back(std::move(primitive));
     }
+    images.add(blocks, model_);
     add_scene();
     if (morph_ != nullptr) add_animation(blocks);
   }
@@ -193,17 +191,25 @@ class SurfaceModel {
     model_.meshes[0].weights.assign(first.begin(), first.end());
   }
 
-  int add_material(const std::string& name) {
+  int add_material(const FaceSet& set, const GltfImages& images) {
     tinygltf::Material material;
-    material.name = name.empty() ? "surface" : name;
+    material.name = set.name.empty() ? "surface" : set.name;
     material.doubleSided = true;
-    material.pbrMetallicRoughness.metallicFactor = 0.0;
-    material.pbrMetallicRoughness.roughnessFactor = 0.5;
+    tinygltf::PbrMetallicRoughness& look = material.pbrMetallicRoughness;
+    look.metallicFactor = 0.0;
+    look.roughnessFactor = 0.5;
     // The base colour is multiplied by the colours at the vertices.
     const double grey = color_.attribute != nullptr ? 1.0 : 0.8;
-    material.pbrMetallicRoughness.baseColorFactor = {grey, grey, grey, 1.0};
-    const bool translucent = color_.attribute != nullptr && color_.attribute->values.cols() == 4 &&
-                             color_.attribute->values.col(3).minCoeff() < 1.0;
+    look.baseColorFactor = {grey, grey, grey, 1.0};
+    bool translucent = color_.attribute != nullptr && color_.attribute->values.cols() == 4 &&
+                       color_.attribute->values.col(3).minCoeff() < 1.0;
+    if (const auto known = materials_.find(set.name); known != materials_.end()) {
+      const std::array<double, 4>& color = known->second.color;
+      for (std::size_t k = 0; k < 3; ++k) look.baseColorFactor[k] = linear_from_srgb(color[k]);
+      look.baseColorFactor[3] = std::clamp(color[3], 0.0, 1.0);
+      if (uv_.attribute != nullptr) look.baseColorTexture.index = images.texture(set.name);
+      translucent = translucent || color[3] < 1.0;
+    }
     if (translucent) material.alphaMode = "BLEND";
     model_.materials.push_back(material);
     return static_cast<int>(model_.materials.size()) - 1;
@@ -264,6 +270,7 @@ class SurfaceModel {
   CornerList color_;
   DrawnNormals normals_;
   MergedCorners corners_;
+  Materials materials_;
   tinygltf::Model model_;
 };
 

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 
 #include "batten/error.h"
 #include "batten/io/formats.h"
+#include "batten/io/materials.h"
+#include "batten/io/ply_faces.h"
 
 namespace batten {
 
@@ -29,7 +32,7 @@ struct Place {
 
 constexpr Place kPlaces[] = {
     {"obj", true, true, true, false, Kept::Anywhere, Kept::Anywhere, Kept::Vertices, Kept::Nowhere, KeptGroups::All},
-    {"ply", true, true, false, false, Kept::Vertices, Kept::Vertices, Kept::Vertices, Kept::Vertices, KeptGroups::None},
+    {"ply", true, true, false, false, Kept::Vertices, Kept::Anywhere, Kept::Vertices, Kept::Vertices, KeptGroups::None},
     {"off", true, true, false, false, Kept::Nowhere, Kept::Nowhere, Kept::Nowhere, Kept::Nowhere, KeptGroups::None},
     {"stl", true, false, false, false, Kept::Nowhere, Kept::Nowhere, Kept::Nowhere, Kept::Nowhere, KeptGroups::None},
     {"xyz", false, true, false, false, Kept::Vertices, Kept::Nowhere, Kept::Nowhere, Kept::Nowhere, KeptGroups::None},
@@ -41,13 +44,14 @@ constexpr Place kPlaces[] = {
 
 class Losses {
  public:
-  Losses(const Place& place, const Mesh& mesh) : place_(place), mesh_(mesh) {}
+  Losses(const std::string& path, const Place& place, const Mesh& mesh) : path_(path), place_(place), mesh_(mesh) {}
 
   std::vector<std::string> find(bool binary) {
     shape(binary);
     surface();
     for (const Attribute& attribute : mesh_.attributes) values(attribute);
     groups();
+    materials();
     return std::move(lost_);
   }
 
@@ -116,18 +120,43 @@ class Losses {
   void groups() {
     for (const Group& group : mesh_.groups) {
       const bool material = group.keyword == "usemtl";
-      const bool kept = place_.groups == KeptGroups::All || (material && place_.groups == KeptGroups::Materials);
+      const bool kept = place_.groups == KeptGroups::All || (material && place_.groups == KeptGroups::Materials) ||
+                        (material && keeps_textures());
       if (kept) continue;
       const bool smoothing = group.keyword == "s";
       if (smoothing && (group.name == "off" || group.name == "0" || group.name.empty())) continue;
       add(true, material ? "materials" : smoothing ? "smoothing groups" : "groups");
     }
-    if (place_.groups == KeptGroups::All || mesh_.material_libraries.empty()) return;
-    add(true, place_.groups == KeptGroups::Materials ? "material library" : "materials");
   }
 
+  /// PLY has images, but neither names nor colours of materials.
+  bool keeps_textures() {
+    if (is("ply") && !textures_complete_) textures_complete_ = io::ply_textures(path_, mesh_).complete;
+    return textures_complete_.value_or(false);
+  }
+
+  void materials() {
+    const std::vector<std::string>& libraries = mesh_.material_libraries;
+    if (is("obj")) {
+      return add(std::any_of(libraries.begin(), libraries.end(), io::is_gltf_library),
+                 "colours and images of materials");
+    }
+    if (place_.groups == KeptGroups::None) return add(!libraries.empty(), "materials");
+    if (!is("glb")) return add(!libraries.empty(), "material library");
+    const io::Materials found = io::find_materials(path_, mesh_);
+    add(!libraries.empty(), found.empty() ? "material library" : "materials but for colours and images");
+    add(std::any_of(found.begin(), found.end(), [](const auto& named) { return lacks_image(named.second); }),
+        "images of materials");
+  }
+
+  static bool lacks_image(const io::Material& material) {
+    return (material.image != nullptr || !material.texture.empty()) && !io::has_image(material);
+  }
+
+  const std::string& path_;
   const Place& place_;
   const Mesh& mesh_;
+  std::optional<bool> textures_complete_;
   std::vector<std::string> lost_;
 };
 
@@ -140,7 +169,7 @@ std::vector<std::string> find_losses(const std::string& path, const Mesh& mesh, 
   if (place == std::end(kPlaces)) {
     throw Error(ErrorCode::UnknownFormat, path + ": " + format + " is only read; write glb instead");
   }
-  return Losses(*place, mesh).find(options.binary);
+  return Losses(path, *place, mesh).find(options.binary);
 }
 
 }  // namespace batten

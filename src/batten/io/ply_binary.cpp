@@ -85,8 +85,12 @@ struct FaceLayout {
 template <ByteOrder Order>
 class BinaryReader {
  public:
-  BinaryReader(const Source& source, const PlyHeader& header, Mesh& mesh)
-      : source_(source), at_(header.body), end_(source.bytes.data() + source.bytes.size()), mesh_(mesh) {}
+  BinaryReader(const Source& source, const PlyHeader& header, PlyFaceValues& faces, Mesh& mesh)
+      : source_(source),
+        at_(header.body),
+        end_(source.bytes.data() + source.bytes.size()),
+        faces_(faces),
+        mesh_(mesh) {}
 
   void read(PlyTargets& targets) {
     const PlyElement& element = *targets.element;
@@ -95,7 +99,7 @@ class BinaryReader {
     if (!element.has_list()) {
       if (targets.role == PlyRole::Vertices) read_fixed_vertices(targets);
       at_ += element.count * element.smallest_row();
-    } else if (targets.role == PlyRole::Faces && list_count(element) == 1 && mesh_.face_count() == 0) {
+    } else if (is_single_list(targets) && mesh_.face_count() == 0) {
       read_single_list_faces(targets);
     } else {
       read_rows(targets);
@@ -104,10 +108,11 @@ class BinaryReader {
   }
 
  private:
-  static std::ptrdiff_t list_count(const PlyElement& element) {
+  /// True for faces that have nothing else that is kept.
+  static bool is_single_list(const PlyTargets& targets) {
     std::ptrdiff_t lists = 0;
-    for (const PlyProperty& property : element.properties) lists += property.is_list() ? 1 : 0;
-    return lists;
+    for (const PlyProperty& property : targets.element->properties) lists += property.is_list() ? 1 : 0;
+    return targets.role == PlyRole::Faces && lists == 1 && targets.texture_number == PlyTargets::kNone;
   }
 
   [[noreturn]] void fail(const char* where, ErrorCode code, const std::string& message) const {
@@ -250,35 +255,38 @@ class BinaryReader {
   /// Reads rows of any size one by one: those with several lists, those of strips, or vertices with
   /// lists.
   void read_rows(const PlyTargets& targets) {
-    std::vector<FaceList> faces(1);
+    std::vector<PlyFaces> faces(1);
     BinaryValues<Order> values{at_, end_};
     for (std::size_t row = 0; row < targets.element->count; ++row) {
       report_now_and_then(row, targets.element->count, 0.0, 1.0);
       read_ply_row(values, targets, static_cast<std::ptrdiff_t>(row), faces[0]);
     }
     at_ = values.at;
-    join_faces(source_.name, faces, mesh_);
+    faces_.join(source_.name, faces, mesh_);
   }
 
   const Source& source_;
   const char* at_;
   const char* end_;
+  PlyFaceValues& faces_;
   Mesh& mesh_;
 };
 
 template <ByteOrder Order>
-void read_elements(const Source& source, const PlyHeader& header, std::vector<PlyTargets>& targets, Mesh& mesh) {
-  BinaryReader<Order> reader(source, header, mesh);
+void read_elements(const Source& source, const PlyHeader& header, std::vector<PlyTargets>& targets,
+                   PlyFaceValues& faces, Mesh& mesh) {
+  BinaryReader<Order> reader(source, header, faces, mesh);
   for (PlyTargets& target : targets) reader.read(target);
 }
 
 }  // namespace
 
-void read_ply_binary(const Source& source, const PlyHeader& header, std::vector<PlyTargets>& targets, Mesh& mesh) {
+void read_ply_binary(const Source& source, const PlyHeader& header, std::vector<PlyTargets>& targets,
+                     PlyFaceValues& faces, Mesh& mesh) {
   if (header.encoding == PlyEncoding::BigEndian) {
-    read_elements<ByteOrder::Big>(source, header, targets, mesh);
+    read_elements<ByteOrder::Big>(source, header, targets, faces, mesh);
   } else {
-    read_elements<ByteOrder::Little>(source, header, targets, mesh);
+    read_elements<ByteOrder::Little>(source, header, targets, faces, mesh);
   }
 }
 

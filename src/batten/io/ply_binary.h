@@ -6,7 +6,9 @@
 
 namespace batten::io {
 
-/// Refuses counts that the file cannot hold before memory is allocated. Throws Fault.
-void read_ply_binary(const Source& source, const PlyHeader& header, std::vector<PlyTargets>& targets, Mesh& mesh);
+/// Keeps the values of faces in `faces`. Refuses counts that the file cannot hold before memory is allocated. Throws
+/// Fault.
+void read_ply_binary(const Source& source, const PlyHeader& header, std::vector<PlyTargets>& targets,
+                     PlyFaceValues& faces, Mesh& mesh);
 
 }  // namespace batten::io

@@ -42,7 +42,7 @@ class HeaderParser {
     if (scanner_.at_end()) scanner_.fail(ErrorCode::BadFile, "the header has no end_header; the file is cut short");
     const std::string_view keyword = scanner_.word();
     if (keyword == "comment" || keyword == "obj_info") {
-      scanner_.skip_comment();
+      comment();
     } else if (keyword == "format") {
       format();
     } else if (keyword == "element") {
@@ -54,6 +54,25 @@ class HeaderParser {
     }
     scanner_.finish_line();
     return keyword == "end_header";
+  }
+
+  /// The rest of the line is no tokens: it may hold a Windows path that ends in a backslash.
+  void comment() {
+    const char* const begin = scanner_.position();
+    scanner_.skip_comment();
+    std::string_view text(begin, static_cast<std::size_t>(scanner_.position() - begin));
+    text = text.substr(0, text.find('\r'));
+    const auto trim = [&] {
+      constexpr const char* kBlanks = " \t";
+      text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+      text = text.substr(0, text.find_last_not_of(kBlanks) + 1);
+    };
+    trim();
+    constexpr std::string_view kTextureFile = "TextureFile";
+    if (text.substr(0, kTextureFile.size() + 1) != std::string(kTextureFile) + ' ') return;
+    text.remove_prefix(kTextureFile.size());
+    trim();
+    if (!text.empty()) header_.texture_files.emplace_back(text);
   }
 
   void format() {

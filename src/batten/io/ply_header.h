@@ -33,6 +33,7 @@ struct PlyElement {
 struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::Text;
   std::vector<PlyElement> elements;
+  std::vector<std::string> texture_files;  ///< of the lines `comment TextureFile NAME`
   const char* body = nullptr;
 };
 

@@ -52,7 +52,8 @@ struct ElementRows {
   std::ptrdiff_t end_row;
 };
 
-void read_text(const Source& source, const PlyHeader& header, std::vector<PlyTargets>& targets, Mesh& mesh) {
+void read_text(const Source& source, const PlyHeader& header, std::vector<PlyTargets>& targets,
+               PlyFaceValues& values_of_faces, Mesh& mesh) {
   const auto offset = static_cast<std::size_t>(header.body - source.bytes.data());
   const Rows rows = find_rows(source, source.bytes.substr(offset));
   require_text_size(source, header, rows);
@@ -63,7 +64,7 @@ void read_text(const Source& source, const PlyHeader& header, std::vector<PlyTar
     const std::ptrdiff_t begin = elements.empty() ? 0 : elements.back().end_row;
     elements.push_back({&target, begin, begin + static_cast<std::ptrdiff_t>(target.element->count)});
   }
-  std::vector<FaceList> faces(rows.chunks.size());
+  std::vector<PlyFaces> faces(rows.chunks.size());
   for_each_row(source, rows, [&](Scanner& scanner, std::ptrdiff_t row, std::size_t chunk) {
     std::size_t at = 0;
     while (at < elements.size() && row >= elements[at].end_row) ++at;
@@ -74,7 +75,7 @@ void read_text(const Source& source, const PlyHeader& header, std::vector<PlyTar
     TextValues values{scanner, elements[at].targets->role == PlyRole::Vertices};
     read_ply_row(values, *elements[at].targets, row - elements[at].first_row, faces[chunk]);
   });
-  join_faces(source.name, faces, mesh);
+  values_of_faces.join(source.name, faces, mesh);
 }
 
 /// Tells which elements, and which properties of faces, have no place in a Mesh.
@@ -87,7 +88,9 @@ void note_skipped(const Source& source, const std::vector<PlyTargets>& targets) 
     if (target.role == PlyRole::Skipped) add(element.name);
     for (std::size_t i = 0; i < element.properties.size() && target.role != PlyRole::Skipped; ++i) {
       const PlyProperty& property = element.properties[i];
-      const bool kept = target.role == PlyRole::Vertices ? !property.is_list() : i == target.face_list;
+      const bool kept = target.role == PlyRole::Vertices ? !property.is_list()
+                                                         : i == target.face_list || i == target.uv_list ||
+                                                               i == target.exact_uv_list || i == target.texture_number;
       if (!kept) add(element.name + " " + property.name);
     }
   }
@@ -102,18 +105,20 @@ Mesh read_ply_lines(const Source& source) {
     throw_at_line(source, fault);
   }
   std::vector<PlyTargets> targets = find_ply_targets(source.name, header);
+  PlyFaceValues faces;
   Mesh mesh;
   try {
     if (header.encoding == PlyEncoding::Text) {
-      read_text(source, header, targets, mesh);
+      read_text(source, header, targets, faces, mesh);
     } else {
-      read_ply_binary(source, header, targets, mesh);
+      read_ply_binary(source, header, targets, faces, mesh);
     }
   } catch (const Fault& fault) {
     if (header.encoding == PlyEncoding::Text) throw_at_line(source, fault);
     throw_at_byte(source, fault);
   }
   settle_ply_colors(mesh);
+  faces.move_to(source, header, mesh);
   note_skipped(source, targets);
   return mesh;
 }

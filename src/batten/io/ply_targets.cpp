@@ -39,6 +39,22 @@ std::ptrdiff_t find_scalar(const PlyElement& element, const std::string& name) {
   return found == element.properties.end() ? -1 : found - element.properties.begin();
 }
 
+/// The index of the list property of that name, or PlyTargets::kNone.
+std::size_t find_list(const PlyElement& element, const std::string& name) {
+  for (std::size_t i = 0; i < element.properties.size(); ++i) {
+    if (element.properties[i].is_list() && element.properties[i].name == name) return i;
+  }
+  return PlyTargets::kNone;
+}
+
+/// Lets the values of faces be kept for which a Mesh has a place.
+void find_face_values(const PlyHeader& header, PlyTargets& targets) {
+  targets.uv_list = find_list(*targets.element, kPlyUvs);
+  if (targets.uv_list != PlyTargets::kNone) targets.exact_uv_list = find_list(*targets.element, kPlyExactUvs);
+  const std::ptrdiff_t number = find_scalar(*targets.element, kPlyTextureNumber);
+  if (number >= 0 && !header.texture_files.empty()) targets.texture_number = static_cast<std::size_t>(number);
+}
+
 bool is_face_list(const PlyProperty& property) {
   return property.is_list() && (property.name == "vertex_indices" || property.name == "vertex_index");
 }
@@ -85,6 +101,7 @@ std::vector<PlyTargets> find_ply_targets(const std::string& name, const PlyHeade
       faces = true;
       targets.role = PlyRole::Faces;
       targets.face_list = static_cast<std::size_t>(list - element.properties.begin());
+      find_face_values(header, targets);
     } else if (element.name == "tristrips" && !strips && list != element.properties.end()) {
       strips = true;
       targets.role = PlyRole::Strips;

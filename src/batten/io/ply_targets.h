@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
-#include "batten/io/faces.h"
+#include "batten/io/ply_faces.h"
 #include "batten/io/ply_header.h"
 #include "batten/mesh/mesh.h"
 
@@ -35,8 +36,12 @@ struct PlyTargets {
   const PlyElement* element = nullptr;
   PlyRole role = PlyRole::Skipped;
   std::vector<PlyColumn> columns;  ///< one for each property
-  std::size_t face_list = 0;       ///< the property that holds the vertices of a face or a strip
-  Index vertex_count = 0;          ///< the file's
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  std::size_t face_list = kNone;  ///< the property that holds the vertices of a face or a strip
+  std::size_t uv_list = kNone;    ///< those of faces that PlyFaces keeps
+  std::size_t exact_uv_list = kNone;
+  std::size_t texture_number = kNone;
+  Index vertex_count = 0;  ///< the file's
 };
 
 /// Throws Error(BadFile) if the header lacks vertices, coordinates or corners, and Error(TooLarge). Allocates no memory
@@ -92,29 +97,44 @@ void read_ply_strip(RowValues& values, PlyType type, std::int64_t count, Index v
   }
 }
 
+/// Reads a list of numbers.
+template <typename RowValues>
+void read_ply_numbers(RowValues& values, const PlyProperty& property, std::int64_t count, Buffer<double>& numbers) {
+  for (std::int64_t k = 0; k < count; ++k) numbers.push_back(values.scalar(property));
+}
+
 /// Reads one row, value by value. `RowValues` has scalar(property), coordinate(property), integer(type, what),
 /// skip(type, count) and fail(code, message).
 template <typename RowValues>
-void read_ply_row(RowValues& values, const PlyTargets& targets, std::ptrdiff_t row, FaceList& faces) {
+void read_ply_row(RowValues& values, const PlyTargets& targets, std::ptrdiff_t row, PlyFaces& faces) {
   const std::vector<PlyProperty>& properties = targets.element->properties;
+  double texture = PlyFaces::kNoTexture;
   for (std::size_t i = 0; i < properties.size(); ++i) {
     const PlyProperty& property = properties[i];
     if (!property.is_list()) {
       const PlyColumn& column = targets.columns[i];
       const double value = values.scalar(property);
       if (column.values != nullptr) column.values[column.stride * row + column.offset] = value / column.divisor;
+      if (i == targets.texture_number) texture = value;
       continue;
     }
     const std::int64_t count = values.integer(*property.count_type, "list size");
     if (count < 0) values.fail(ErrorCode::BadFile, "a list has " + std::to_string(count) + " entries");
-    if (i != targets.face_list || (targets.role != PlyRole::Faces && targets.role != PlyRole::Strips)) {
-      values.skip(property.type, count);
-    } else if (targets.role == PlyRole::Faces) {
-      read_ply_face(values, property.type, count, targets.vertex_count, faces);
+    if (i == targets.face_list && targets.role == PlyRole::Faces) {
+      read_ply_face(values, property.type, count, targets.vertex_count, faces.list);
+    } else if (i == targets.face_list) {
+      read_ply_strip(values, property.type, count, targets.vertex_count, faces.list);
+    } else if (i == targets.uv_list) {
+      read_ply_numbers(values, property, count, faces.uvs.row);
+    } else if (i == targets.exact_uv_list) {
+      read_ply_numbers(values, property, count, faces.exact_uvs.row);
     } else {
-      read_ply_strip(values, property.type, count, targets.vertex_count, faces);
+      values.skip(property.type, count);
     }
   }
+  if (targets.role != PlyRole::Faces) return;
+  const auto is_there = [](std::size_t property) { return property != PlyTargets::kNone; };
+  faces.end_row(is_there(targets.uv_list), is_there(targets.exact_uv_list), is_there(targets.texture_number), texture);
 }
 
 }  // namespace batten::io

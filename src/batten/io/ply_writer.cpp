@@ -7,6 +7,7 @@
 #include "batten/io/formats.h"
 #include "batten/io/ply_targets.h"
 #include "batten/io/text_output.h"
+#include "batten/io/write_check.h"
 
 namespace batten::io {
 
@@ -88,70 +89,155 @@ Index largest_face(const Mesh& mesh) {
   return largest;
 }
 
-void write_header(OutputFile& file, const Mesh& mesh, const std::vector<Column>& columns, bool short_lists,
+/// What is written of each face.
+struct FaceColumns {
+  const Attribute* uvs;  ///< at corners, or null
+  bool exact_uvs;        ///< true if floats do not hold them
+  PlyTextures textures;
+  bool short_lists;     ///< true if a byte counts the vertices of each face
+  bool short_uv_lists;  ///< the same for texture coordinates
+};
+
+bool holds_floats(const Values& values) {
+  const double* data = values.data();
+  return parallel_all_of(values.size(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (std::ptrdiff_t i = begin; i < end; ++i) {
+      if (static_cast<double>(static_cast<float>(data[i])) != data[i] && !std::isnan(data[i])) return false;
+    }
+    return true;
+  });
+}
+
+FaceColumns find_face_columns(const std::string& file_name, const Mesh& mesh) {
+  const Index largest = largest_face(mesh);
+  const Attribute* uvs = corner_attribute(mesh, "uv");
+  const bool exact = uvs != nullptr && !holds_floats(uvs->values);
+  return {uvs, exact, ply_textures(file_name, mesh), largest <= 255, largest <= 127};
+}
+
+void put_list(TextBuffer& out, bool is_short, const char* type, const char* name) {
+  out.put("property list ").put(std::string_view(is_short ? "uchar " : "int ")).put(std::string_view(type));
+  out.put(' ').put(std::string_view(name)).put('\n');
+}
+
+void write_header(OutputFile& file, const Mesh& mesh, const std::vector<Column>& columns, const FaceColumns& faces,
                   Encoding encoding) {
   TextBuffer out;
   out.put("ply\nformat ").put(std::string_view(encoding == Encoding::Binary ? "binary_little_endian" : "ascii"));
-  out.put(" 1.0\nelement vertex ").put(mesh.vertex_count()).put('\n');
+  out.put(" 1.0\n");
+  for (const std::string& name : faces.textures.names) out.put("comment TextureFile ").put(name).put('\n');
+  out.put("element vertex ").put(mesh.vertex_count()).put('\n');
   for (const Column& column : columns) {
     out.put(std::string_view(column.type == ColumnType::Uchar ? "property uchar " : "property double "));
     out.put(column.name).put('\n');
   }
   if (mesh.face_count() > 0) {
-    out.put("element face ").put(mesh.face_count()).put("\nproperty list ");
-    out.put(std::string_view(short_lists ? "uchar" : "int")).put(" int vertex_indices\n");
+    out.put("element face ").put(mesh.face_count()).put('\n');
+    put_list(out, faces.short_lists, "int", "vertex_indices");
+    if (faces.uvs != nullptr) put_list(out, faces.short_uv_lists, "float", kPlyUvs);
+    if (faces.exact_uvs) put_list(out, faces.short_uv_lists, "double", kPlyExactUvs);
+    if (!faces.textures.numbers.empty()) out.put("property int ").put(kPlyTextureNumber).put('\n');
   }
   out.put("end_header\n");
   file.write(out.text());
 }
 
-void write_binary(OutputFile& file, const Mesh& mesh, const std::vector<Column>& columns, bool short_lists) {
-  write_rows<ByteBuffer>(file, mesh.vertex_count(), [&](ByteBuffer& out, std::ptrdiff_t row) {
-    for (const Column& column : columns) {
-      if (column.type == ColumnType::Uchar) {
-        out.put(column.byte(row));
-      } else {
-        out.put(column.value(row));
-      }
-    }
-  });
-  write_rows<ByteBuffer>(file, mesh.face_count(), [&](ByteBuffer& out, std::ptrdiff_t row) {
-    const auto face = static_cast<Index>(row);
-    if (short_lists) {
-      out.put(static_cast<std::uint8_t>(mesh.face_size(face)));
+class BinaryRow {
+ public:
+  explicit BinaryRow(ByteBuffer& out) : out_(out) {}
+  void byte(std::uint8_t value) { out_.put(value); }
+  void index(Index value) { out_.put(value); }
+  void single(double value) { out_.put(static_cast<float>(value)); }
+  void real(double value) { out_.put(value); }
+  void count(bool is_short, Index value) {
+    if (is_short) {
+      byte(static_cast<std::uint8_t>(value));
     } else {
-      out.put(mesh.face_size(face));
+      index(value);
     }
-    for (Index i = mesh.face_offsets[face]; i < mesh.face_offsets[face + 1]; ++i) out.put(mesh.face_vertices[i]);
-  });
+  }
+  void end() {}
+
+ private:
+  ByteBuffer& out_;
+};
+
+/// Numbers with blanks between them.
+class TextRow {
+ public:
+  explicit TextRow(TextBuffer& out) : out_(out) {}
+  void byte(std::uint8_t value) { next().put(Index{value}); }
+  void index(Index value) { next().put(value); }
+  void single(double value) { next().put(static_cast<double>(static_cast<float>(value))); }
+  void real(double value) { next().put(value); }
+  void count(bool /*is_short*/, Index value) { index(value); }
+  void end() { out_.put('\n'); }
+
+ private:
+  TextBuffer& next() {
+    if (!first_) out_.put(' ');
+    first_ = false;
+    return out_;
+  }
+
+  TextBuffer& out_;
+  bool first_ = true;
+};
+
+/// A face with a corner without texture coordinates has an empty list.
+template <typename Row, typename Put>
+void put_uvs(Row& to, const Mesh& mesh, const FaceColumns& faces, Index face, const Put& put) {
+  const Index* first = &faces.uvs->corner_rows[mesh.face_offsets[face]];
+  const Index* last = first + mesh.face_size(face);
+  const bool complete = std::none_of(first, last, [](Index row) { return row < 0; });
+  to.count(faces.short_uv_lists, complete ? 2 * mesh.face_size(face) : 0);
+  for (; complete && first != last; ++first) {
+    put(faces.uvs->values(*first, 0));
+    put(faces.uvs->values(*first, 1));
+  }
 }
 
-void write_text(OutputFile& file, const Mesh& mesh, const std::vector<Column>& columns) {
-  write_rows<TextBuffer>(file, mesh.vertex_count(), [&](TextBuffer& out, std::ptrdiff_t row) {
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-      if (k > 0) out.put(' ');
-      if (columns[k].type == ColumnType::Uchar) {
-        out.put(Index{columns[k].byte(row)});
+template <typename Row>
+void put_face(Row& to, const Mesh& mesh, const FaceColumns& faces, Index face) {
+  to.count(faces.short_lists, mesh.face_size(face));
+  for (Index i = mesh.face_offsets[face]; i < mesh.face_offsets[face + 1]; ++i) to.index(mesh.face_vertices[i]);
+  if (faces.uvs != nullptr) put_uvs(to, mesh, faces, face, [&](double value) { to.single(value); });
+  if (faces.exact_uvs) put_uvs(to, mesh, faces, face, [&](double value) { to.real(value); });
+  if (!faces.textures.numbers.empty()) to.index(faces.textures.numbers[face]);
+}
+
+/// Writes the rows of both elements in the encoding of `Row`.
+template <typename Row, typename Output>
+void write_elements(OutputFile& file, const Mesh& mesh, const std::vector<Column>& columns, const FaceColumns& faces) {
+  write_rows<Output>(file, mesh.vertex_count(), [&](Output& out, std::ptrdiff_t row) {
+    Row to(out);
+    for (const Column& column : columns) {
+      if (column.type == ColumnType::Uchar) {
+        to.byte(column.byte(row));
       } else {
-        out.put(columns[k].value(row));
+        to.real(column.value(row));
       }
     }
-    out.put('\n');
+    to.end();
   });
-  write_face_rows(file, mesh);
+  write_rows<Output>(file, mesh.face_count(), [&](Output& out, std::ptrdiff_t row) {
+    Row to(out);
+    put_face(to, mesh, faces, static_cast<Index>(row));
+    to.end();
+  });
 }
 
 }  // namespace
 
 void write_ply(OutputFile& file, const Mesh& mesh, Encoding encoding) {
   const std::vector<Column> columns = find_columns(file.name(), mesh);
-  const bool short_lists = largest_face(mesh) <= 255;
+  const FaceColumns faces = find_face_columns(file.name(), mesh);
   file.expect_rows(std::ptrdiff_t{mesh.vertex_count()} + mesh.face_count());
-  write_header(file, mesh, columns, short_lists, encoding);
+  write_header(file, mesh, columns, faces, encoding);
   if (encoding == Encoding::Binary) {
-    write_binary(file, mesh, columns, short_lists);
+    write_elements<BinaryRow, ByteBuffer>(file, mesh, columns, faces);
   } else {
-    write_text(file, mesh, columns);
+    write_elements<TextRow, TextBuffer>(file, mesh, columns, faces);
   }
 }
 
