@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "batten/error.h"
+#include "batten/mesh/triangulate.h"
 #include "batten/parallel/parallel.h"
 #include "batten/tessellate/surface_mesh.h"
 #include "io/io_test_tools.h"
@@ -78,6 +81,28 @@ TEST(Texture, KeepsTheLimitSurfaceAndGivesEachVertexAColour) {
       EXPECT_LE(color->values.maxCoeff(), 1.0);
       EXPECT_NE(attribute(colored, "normal"), nullptr);
     }
+  }
+}
+
+TEST(Texture, BelongsToThePlaceOfItsVertex) {
+  // Features are as large as the model, so neighbours, a fiftieth of it apart, have nearly the same colour.
+  NoiseOptions noise;
+  noise.frequency = 1.0;
+  noise.octaves = 1;
+  const ColorRamp greys(std::vector<std::array<double, 3>>{{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}});
+  for (const Mesh& mesh : {torus(12, 8), dodecahedron(), triangulated(torus(12, 8))}) {
+    TextureOptions options;
+    options.levels = 3;
+    const Mesh colored = textured(mesh, plain_texture(noise, greys), options);
+    const Values& colors = attribute(colored, "color")->values;
+    const double range = colors.maxCoeff() - colors.minCoeff();
+    EXPECT_GT(range, 0.1);
+    double most = 0.0;
+    for (Index f = 0; f < colored.face_count(); ++f) {
+      const Index* v = colored.face_vertices.data() + colored.face_offsets[f];
+      most = std::max(most, std::abs(colors(v[0], 0) - colors(v[1], 0)));
+    }
+    EXPECT_LT(most, 0.25 * range);
   }
 }
 

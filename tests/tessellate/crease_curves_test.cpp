@@ -49,5 +49,31 @@ TEST(CreaseCurves, LeaveBoundariesAndSmoothEdgesOut) {
   EXPECT_EQ(curves[0].sharpness, 1.5);
 }
 
+TEST(RefinementOrder, FindsTheSamePointsAfterRefinement) {
+  // Quads; pentagons; triangles; a boundary; a scheme that interpolates.
+  for (const Mesh& mesh :
+       {cube(), dodecahedron(), triangulated(dodecahedron()), grid(3, 2), triangulated(grid(3, 2))}) {
+    const Topology topology(mesh);
+    for (const SchemeKind kind : {choose_scheme(mesh).kind, SchemeKind::ModifiedButterfly}) {
+      if (kind == SchemeKind::ModifiedButterfly && !all_triangles(mesh)) continue;
+      Scheme scheme = choose_scheme(mesh);
+      scheme.kind = kind;
+      for (const int count : {1, 3}) {
+        const Tessellator tessellator(topology, scheme, count);
+        std::vector<Topology> levels;
+        const bool refined = tessellator.base().half_edge_count() != topology.half_edge_count();
+        for (int level = refined ? 1 : 0; level <= count; ++level)
+          levels.push_back(refine(topology, scheme, mesh.points, level).topology);
+        Points points(tessellator.vertex_count(), 3);
+        tessellator.refined<double>(mesh.points, {points.data(), static_cast<std::size_t>(points.size())});
+        const Values expected = refine(topology, scheme, mesh.points, count).values;
+        const Buffer<Index> order = refinement_order(tessellator, levels);
+        ASSERT_EQ(static_cast<Eigen::Index>(order.size()), expected.rows());
+        EXPECT_LT((points - expected(order, Eigen::all)).cwiseAbs().maxCoeff(), 1e-13);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace batten

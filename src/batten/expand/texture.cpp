@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "batten/error.h"
 #include "batten/limit/limit_matrix.h"
 #include "batten/mesh/face_normal.h"
 #include "batten/parallel/parallel.h"
 #include "batten/progress.h"
+#include "batten/tessellate/grid_fields.h"
 #include "batten/tessellate/surface_mesh.h"
 
 namespace batten {
@@ -81,6 +84,20 @@ Values colors_of(const Texture& texture, const Points& places, const Values& noi
   return colors;
 }
 
+/// The noise at the vertices of surface_mesh, whose order is the Tessellator's; SurfaceNoise has Refinement's.
+Values noise_at(const SurfaceNoise& noises, const Topology& topology, const Scheme& scheme, const Points& places,
+                std::span<const NoiseOptions> options, const Progress& progress) {
+  if (noises.levels() == 0) return noises.values(places, options, progress);
+  const Tessellator tessellator(topology, scheme, noises.levels());
+  const bool refined = tessellator.base().half_edge_count() != topology.half_edge_count();
+  std::vector<Topology> levels;
+  for (int level = refined ? 1 : 0; level <= noises.levels(); ++level) levels.push_back(noises.level(level));
+  const Buffer<Index> order = refinement_order(tessellator, levels);
+  Points ordered(places.rows(), 3);
+  for (Index v = 0; v < places.rows(); ++v) ordered.row(order[v]) = places.row(v);
+  return noises.values(ordered, options, progress)(order, Eigen::all);
+}
+
 }  // namespace
 
 Mesh textured_surface(const Topology& topology, const Scheme& scheme, const Mesh& control, const Texture& texture,
@@ -95,8 +112,9 @@ Mesh textured_surface(const Topology& topology, const Scheme& scheme, const Mesh
   Mesh mesh = options.flat ? control
                            : surface_mesh(topology, scheme, control, levels, progress_within(progress, 0.0, kSurface));
   const Points places = places_of(mesh.points);
-  const Values noise = SurfaceNoise(topology, scheme, levels, progress_within(progress, kSurface, kLevels))
-                           .values(places, texture.noises, progress_within(progress, kLevels, 1.0));
+  const SurfaceNoise noises(topology, scheme, levels, progress_within(progress, kSurface, kLevels));
+  const Values noise =
+      noise_at(noises, topology, scheme, places, texture.noises, progress_within(progress, kLevels, 1.0));
   drop_attribute(mesh, "color");
   mesh.attributes.push_back({"color", colors_of(texture, places, noise), {}});
   if (options.displacement != 0.0 && noise.cols() > 0) {

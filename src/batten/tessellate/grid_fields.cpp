@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "batten/mesh/vertex_fields.h"
 #include "batten/parallel/parallel.h"
@@ -97,6 +98,65 @@ class SideLattice {
   Scalars at_vertices_;
 };
 
+/// The vertex at (i, j) of a quad's grid of n by n, followed down to the level where it is a corner. Quad h of the next
+/// level starts at the origin of half-edge h and runs along it.
+Index quad_vertex(std::span<const Topology> levels, Index face, Index n, Index i, Index j) {
+  for (std::size_t level = 0; n > 1; ++level, n /= 2) {
+    const Index half = n / 2;
+    const Index first = levels[level].face_begin(face);
+    const Index u = i;
+    const Index v = j;
+    if (u <= half && v <= half) {
+      face = first;
+    } else if (v <= half) {
+      face = first + 1;
+      i = v;
+      j = n - u;
+    } else if (u > half) {
+      face = first + 2;
+      i = n - u;
+      j = n - v;
+    } else {
+      face = first + 3;
+      i = n - v;
+      j = u;
+    }
+  }
+  const Index corner = i == 0 ? (j == 0 ? 0 : 3) : (j == 0 ? 1 : 2);
+  return levels.back().origin(levels.back().face_begin(face) + corner);
+}
+
+/// The same in a triangle, for the weights of its corners, which are whole numbers with a power of two as their sum.
+Index triangle_vertex(std::span<const Topology> levels, Index face, std::array<Index, 3> weights) {
+  Index half = (weights[0] + weights[1] + weights[2]) / 2;
+  for (std::size_t level = 0; half > 0; ++level, half /= 2) {
+    const Topology& topology = levels[level];
+    const Topology& next = levels[level + 1];
+    const Index h = topology.face_begin(face);
+    std::array<std::pair<Index, Index>, 3> parts;  // vertices of the next level, and their weights
+    const auto middle = [&](Index k) { return topology.vertex_count() + topology.edge(h + k % 3); };
+    Index child = 3;
+    for (Index k = 0; k < 3; ++k) {
+      parts[static_cast<std::size_t>(k)] = {middle(k), half - weights[static_cast<std::size_t>((k + 2) % 3)]};
+      if (weights[static_cast<std::size_t>(k)] >= half) child = k;
+    }
+    if (child < 3) {
+      const auto at = [&](Index k) { return weights[static_cast<std::size_t>((child + k) % 3)]; };
+      parts = {{{topology.origin(h + child), at(0) - half}, {middle(child), at(1)}, {middle(child + 2), at(2)}}};
+    }
+    face = 4 * face + child;
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (const std::pair<Index, Index>& part : parts) {
+        if (next.origin(next.face_begin(face) + static_cast<Index>(k)) == part.first) weights[k] = part.second;
+      }
+    }
+  }
+  for (Index k = 0; k < 3; ++k) {
+    if (weights[static_cast<std::size_t>(k)] > 0) return levels.back().origin(levels.back().face_begin(face) + k);
+  }
+  return -1;
+}
+
 }  // namespace
 
 Buffer<SurfacePlace> vertex_places(const Tessellator& tessellator) {
@@ -152,6 +212,22 @@ std::vector<CreaseCurve> crease_curves(const Topology& topology, const Tessellat
     curves.push_back(std::move(curve));
   }
   return curves;
+}
+
+Buffer<Index> refinement_order(const Tessellator& tessellator, std::span<const Topology> levels) {
+  const Topology& base = levels.front();
+  const TessellationLayout layout = layout_of(tessellator);
+  Buffer<Index> order(static_cast<std::size_t>(layout.vertices));
+  for (Index v = 0; v < base.vertex_count(); ++v) order[v] = v;  // also those without a face
+  parallel_for(base.face_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (auto f = static_cast<Index>(begin); f < end; ++f) {
+      for_each_owned(base, layout, f, [&](Index i, Index j, Index vertex) {
+        order[vertex] = layout.quads ? quad_vertex(levels, f, layout.steps, i, j)
+                                     : triangle_vertex(levels, f, {layout.steps - i - j, i, j});
+      });
+    }
+  });
+  return order;
 }
 
 }  // namespace batten

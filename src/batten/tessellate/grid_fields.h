@@ -1,5 +1,6 @@
 /// \file Where the vertices of a tessellation lie on the surface, and how sharp it is there.
 #pragma once
+#include <span>
 #include <vector>
 
 #include "batten/patch/surface_place.h"
@@ -25,5 +26,9 @@ struct CreaseCurve {
 /// The creases of the control mesh, one for each of its sharp edges inside the mesh, in their order.
 /// O(E + the vertices along them).
 std::vector<CreaseCurve> crease_curves(const Topology& topology, const Tessellator& tessellator);
+
+/// For each vertex of the tessellation its number after as many refinement steps. levels: the connectivities from the
+/// tessellation's base, levels[0], up to its finest level (refine/refinement.h). O(V' levels), threaded.
+Buffer<Index> refinement_order(const Tessellator& tessellator, std::span<const Topology> levels);
 
 }  // namespace batten
