@@ -13,10 +13,10 @@
 ///         corners, g o usemtl s mtllib, and OpenSubdiv's tags `t crease`, `corner`, `hole`, `interpolateboundary`,
 ///         `creasemethod`, `smoothtriangles`, whose indices count from 0. All else is skipped. Groups without faces
 ///         are not kept.
-///   PLY   text and both byte orders, any types, faces and triangle strips (`tristrips`; -1 begins a new strip). nx ny
-///         nz become "normal"; red green blue [alpha] become "color" (bytes become k/255; exact_red and so on take
-///         their place, unless the bytes disagree); s t, u v and texture_u texture_v become "uv"; any other scalar of
-///         the vertices becomes an attribute ("uv_" for a scalar called uv). Other elements are skipped.
+///   PLY   text and both byte orders, any types, faces and strips (`tristrips`). nx ny nz become "normal"; red green
+///         blue [alpha] "color" (bytes k/255; exact_red and so on instead, if the bytes agree); s t, u v, texture_u
+///         texture_v and the faces' lists texcoord "uv"; images (TextureFile, texnumber) groups usemtl of their names;
+///         any other scalar of the vertices an attribute ("uv_" for one called uv). Other elements are skipped.
 ///   OFF   with normals (N), colours (C) and texture coordinates (ST) of the vertices. Binary OFF and other
 ///         dimensions are not read.
 ///   STL   text and bytes, distinguished by the size of the file. Equal coordinates become one vertex, in the order
@@ -26,10 +26,10 @@
 ///         commas separate numbers; # begins a comment.
 ///
 ///   GLB   and glTF 2.0: the triangles, strips and fans of the scene, moved by their nodes. Within a node, vertices
-///   with
-///         equal coordinates become one; TEXCOORD_0 (v turned to point up), NORMAL and COLOR_0 (linear colours become
-///         sRGB) become "uv", "normal" and "color", at the corners where a seam splits a vertex, otherwise at the
-///         vertices. Nodes become groups o, materials usemtl. Draco and meshopt packing is refused.
+///         with equal coordinates become one; TEXCOORD_0 (v turned to point up), NORMAL and COLOR_0 (linear colours
+///         become sRGB) become "uv", "normal" and "color", at the corners where a seam splits a vertex, otherwise at
+///         the vertices. Nodes become groups o, materials usemtl; the file itself is the library of their colours
+///         and images (Mesh::material_libraries). Draco and meshopt packing is refused.
 ///
 /// Lines end in a line feed, with or without a carriage return, or in a carriage return alone.
 /// Coordinates and sharpness values must be finite. Other attributes may hold NaN and are kept unchanged.
@@ -74,20 +74,20 @@ struct WriteOptions {
 
 /// Writes everything that the format can hold, as doubles that read back bit for bit.
 ///
-///   OBJ   everything except `scheme` and attributes with names other than "uv", "normal" and "color" (at the
-///         vertices)
-///   PLY   points, faces, attributes at the vertices (k columns with another name: NAME_0 and so on). Colours are
-///         bytes, as other programs expect; if they are not all k/255, doubles called exact_red and so on follow
+///   OBJ   everything except `scheme` and attributes with names other than "uv", "normal" and "color" (vertices)
+///   PLY   points, faces, attributes at the vertices (k columns: NAME_0 and so on), "uv" at corners, images. Colours
+///         are bytes and texcoord floats, as others expect; if these are not exact, doubles called exact_red,
+///         exact_texcoord and so on follow
 ///   OFF   points and faces
 ///   XYZ   points, and "normal" at the vertices
 ///   STL   triangles, polygons as fans; bytes hold floats, in which vertices close to each other may coincide
 ///   GLB   triangles in float, for display: corners with equal "uv", "normal" and "color" share a vertex, v is turned
 ///         to point down, colours (taken as sRGB, in [0, 1]) become linear, and each usemtl is a primitive with a
-///         material of that name. Normals have unit length; missing and zero ones are the mean of the faces' by area.
-///         Holes are left out. glTF has y up and the
-///         front at +z: a mesh with another up axis is turned so (to_y_up), which changes no digit. If the points are
-///         farther from the origin than their own size, the node has a translation, so that floats are precise enough.
-///         Takes twice the memory of the file besides the mesh.
+///         material; base colours and images are those of the libraries. Normals have unit length; missing and zero
+///         ones are the mean of the faces' by area. Holes are left out. glTF has y up and the front at +z: a mesh with
+///         another up axis is turned so (to_y_up), which changes no digit. If the points are farther from the origin
+///         than their own size, the node has a translation, so that floats are precise enough. Takes twice the memory
+///         of the file besides the mesh.
 ///   USDA  a subdivision surface with all its tags, every attribute, and usemtl as GeomSubsets. Coordinates have all
 ///         digits of a double although USD's type is float, and a translation as in GLB. upAxis is Y or Z; for the
 ///         other axes a transform turns the mesh to Y. A mesh with normals and without any choice about a surface
