@@ -35,7 +35,8 @@ struct CommonArguments {
   bool repair = false;
   bool quiet = false;
   bool ascii = false;
-  bool text_to_stderr = false;  ///< an output takes standard output
+  std::optional<double> features;  ///< find sharp edges of so many degrees
+  bool text_to_stderr = false;     ///< an output takes standard output
   int threads = 0;
 };
 
@@ -60,6 +61,7 @@ struct PictureArguments {
   View view = View::Auto;
   std::optional<std::array<double, 3>> direction;
   Coloring coloring = Coloring::None;
+  std::optional<std::array<double, 2>> range;  ///< of the colour bar, instead of a fitted one
   bool transparent = false;
   bool before_after = false;
   int turntable = 0;  ///< pictures around; 0: one picture
@@ -99,6 +101,8 @@ struct RenderArguments {
   CommonArguments common;
   PictureArguments picture;
   std::string targets;   ///< mesh whose vertices the surface should pass through, for Coloring::Error
+  std::string values;    ///< mesh file with numbers at the vertices, instead of a Coloring
+  std::string value;     ///< which of them; empty: the only one
   int levels = -1;       ///< -1: as many as make the picture smooth
   bool flat = false;     ///< draw the mesh itself, not its subdivision surface
   bool control = false;  ///< draw the control mesh as lines
@@ -171,12 +175,18 @@ struct MorphArguments {
   bool resample = false;
 };
 
+struct InfoArguments {
+  CommonArguments common;
+  bool curvature = false;
+  bool self_intersections = false;  ///< also in a large mesh
+};
+
 struct RepairArguments {
   CommonArguments common;
   RepairOptions options;
 };
 
-int run_info(const CommonArguments& arguments);
+int run_info(const InfoArguments& arguments);
 int run_interpolate(const InterpolateArguments& arguments);
 int run_subdivide(const SubdivideArguments& arguments);
 /// subdivide where a bound is given.

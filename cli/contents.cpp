@@ -56,10 +56,11 @@ void describe_box(const Mesh& mesh, Table& table, Json& json) {
   json["box"] = {{"low", {box.low[0], box.low[1], box.low[2]}}, {"high", {box.high[0], box.high[1], box.high[2]}}};
 }
 
-void describe_sizes(const Topology& topology, const Points& points, Table& table, Json& json) {
+void describe_sizes(const Topology& topology, const Components& components, const Points& points, Table& table,
+                    Json& json) {
   const EdgeLengths lengths = edge_lengths(topology, points);
   const double area = surface_area(topology, points);
-  const ComponentVolumes volumes = component_volumes(topology, points);
+  const ComponentVolumes volumes = component_volumes(topology, points, components);
   table.add("area", fmt::format("{:g}", area));
   if (volumes.closed_count() > 0) {
     table.add("volume", fmt::format("{:g}, of {}", volumes.sum(),

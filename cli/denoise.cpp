@@ -43,9 +43,10 @@ void print_table(const DenoiseArguments& arguments, const Topology& topology, co
   Table table;
   table.add("mesh", mesh_text(topology));
   table.add("scheme", weights_text(scheme, arguments.options.matrix));
-  if (arguments.options.features)
-    table.add("features", count_of(static_cast<std::int64_t>(result.features.size()), "sharp edge", "sharp edges") +
-                              fmt::format(" of over {:g} degrees", arguments.options.feature_options.degrees));
+  if (result.features_left_out > 0) {
+    table.add("left out", count_of(result.features_left_out, "sharp edge was", "sharp edges were") +
+                              " found, but they make the error to expect hardly smaller");
+  }
   table.add("noise", noise_text(result.noise.deviation, mean_edge));
   const double halved = halved_wavelength(scheme.kind, arguments.options.matrix, smoothing.m, smoothing.passes);
   table.add("smoothed", fmt::format("{} with m = {}: {}", count_of(smoothing.passes, "pass", "passes"), smoothing.m,
@@ -61,8 +62,6 @@ void print_table(const DenoiseArguments& arguments, const Topology& topology, co
 nlohmann::ordered_json report_json(const DenoiseArguments& arguments, const Topology& topology, const Scheme& scheme,
                                    const DenoiseResult& result, double diagonal) {
   const SmoothingChoice& smoothing = result.smoothing;
-  nlohmann::ordered_json features = nlohmann::ordered_json::array();
-  for (const Crease& crease : result.features) features.push_back({crease.a, crease.b});
   return {
       {"vertices", topology.vertex_count()},
       {"faces", topology.face_count()},
@@ -81,7 +80,8 @@ nlohmann::ordered_json report_json(const DenoiseArguments& arguments, const Topo
       {"moved_rms", result.moved},
       {"max_moved", result.most_moved},
       {"max_moved_vertex", result.most_moved_vertex},
-      {"features", features},
+      {"features", edges_json(result.features)},
+      {"features_left_out", result.features_left_out},
       {"closed_components", result.closed_components},
       {"scaled_components", result.scaled_components},
       {"volume_before", result.volume_before},
@@ -99,9 +99,12 @@ int run_denoise(const DenoiseArguments& arguments) {
   const Scheme scheme = scheme_for(common, mesh);
   DenoiseOptions options = arguments.options;
   if (arguments.strength) options.passes = passes_for(scheme.kind, options.matrix, options.m, *arguments.strength);
-  const Topology topology = job.connect();
+  options.features = common.features.has_value();
+  options.feature_options.degrees = common.features.value_or(options.feature_options.degrees);
+  const Topology topology = job.connect_as_given();
   const DenoiseResult result =
       denoise(topology, scheme, mesh.points, options, ProgressBar("smoothing", common.quiet).callback());
+  if (common.features) job.features = result.features;
   job.stages.finish("smooth");
   Mesh smooth = with_points(mesh, result.points);
   smooth.creases.insert(smooth.creases.end(), result.features.begin(), result.features.end());

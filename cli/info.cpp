@@ -3,12 +3,14 @@
 #include <optional>
 
 #include "batten/error.h"
+#include "batten/expand/self_intersections.h"
 #include "batten/mesh/check.h"
 #include "batten/mesh/places.h"
 #include "batten/mesh/seams.h"
 #include "batten/mesh/summary.h"
 #include "batten/parallel/parallel.h"
 #include "cli/contents.h"
+#include "cli/curvature.h"
 #include "cli/input_output.h"
 #include "cli/progress.h"
 #include "cli/report.h"
@@ -43,7 +45,13 @@ Json histogram_json(const std::map<Index, Index>& histogram) {
 
 std::map<Index, Index> face_sizes(const Mesh& mesh) {
   std::map<Index, Index> sizes;
-  for (Index f = 0; f < mesh.face_count(); ++f) ++sizes[mesh.face_size(f)];
+  for (Index begin = 0; begin < mesh.face_count();) {
+    const Index size = mesh.face_size(begin);
+    Index end = begin + 1;
+    while (end < mesh.face_count() && mesh.face_size(end) == size) ++end;
+    sizes[size] += end - begin;
+    begin = end;
+  }
   return sizes;
 }
 
@@ -89,8 +97,8 @@ void describe_creases(const MeshSummary& summary, Table& table, Json& json) {
                                    summary.darts > 0 ? "; " + count_of(summary.darts, "dart", "darts") : ""));
 }
 
-void describe_topology(const Topology& topology, Table& table, Json& json) {
-  const MeshSummary summary = summarize(topology);
+void describe_topology(const Topology& topology, const Components& components, Table& table, Json& json) {
+  const MeshSummary summary = summarize(topology, components);
   const Index isolated = summary.isolated_vertices;
   if (isolated > 0) table.add("isolated", count_of(isolated, "vertex has", "vertices have") + " no face");
   table.add("edges", grouped(topology.edge_count()));
@@ -216,9 +224,11 @@ void describe_repair(const Mesh& mesh, const std::optional<Topology>& topology, 
 
 void describe_mesh(const Mesh& mesh, Table& table, Json& json) {
   const Index coincident = coincident_count(mesh.points);
+  const std::map<Index, Index> sizes = face_sizes(mesh);
+  const double diagonal = bounding_diagonal(mesh.points);
   table.add("vertices", grouped(mesh.vertex_count()));
-  table.add("faces", fmt::format("{} ({})", grouped(mesh.face_count()), histogram_text(face_sizes(mesh))));
-  table.add("diagonal", fmt::format("{:g}", bounding_diagonal(mesh.points)));
+  table.add("faces", fmt::format("{} ({})", grouped(mesh.face_count()), histogram_text(sizes)));
+  table.add("diagonal", fmt::format("{:g}", diagonal));
   if (coincident > 0) {
     table.add("coincident", count_of(coincident, "vertex lies", "vertices lie") + " where an earlier one lies");
   }
@@ -226,9 +236,9 @@ void describe_mesh(const Mesh& mesh, Table& table, Json& json) {
   if (!mesh.holes.empty()) table.add("holes", grouped(static_cast<std::int64_t>(mesh.holes.size())));
   json["vertices"] = mesh.vertex_count();
   json["faces"] = mesh.face_count();
-  json["diagonal"] = bounding_diagonal(mesh.points);
+  json["diagonal"] = diagonal;
   json["coincident_vertices"] = coincident;
-  json["face_sizes"] = histogram_json(face_sizes(mesh));
+  json["face_sizes"] = histogram_json(sizes);
   json["creases"] = mesh.creases.size();
   json["corners"] = mesh.corners.size();
   json["holes"] = mesh.holes.size();
@@ -244,40 +254,72 @@ std::optional<Topology> topology_of(const Mesh& mesh, bool quiet) {
   }
 }
 
-void describe_surface(const Mesh& mesh, const Topology& topology, const CommonArguments& arguments, Table& table,
+/// Looks for faces that pass through each other, in a large mesh only where that is asked for.
+void describe_intersections(const Mesh& mesh, const Topology& topology, const InfoArguments& arguments, Table& table,
+                            Json& json) {
+  constexpr std::int64_t kManyTriangles = 300000;
+  const std::int64_t triangles = std::int64_t{topology.half_edge_count()} - 2 * std::int64_t{topology.face_count()};
+  json["self_intersections"] = nullptr;
+  if (triangles > kManyTriangles && !arguments.self_intersections) {
+    table.add("intersections", "not looked for in so large a mesh; --self-intersections does");
+    return;
+  }
+  const SelfIntersections found =
+      find_self_intersections(topology, mesh.points, ProgressBar("intersecting", arguments.common.quiet).callback());
+  json["self_intersections"] = {{"triangle_pairs", found.count}, {"first_faces", found.faces}};
+  if (found.count == 0) return;
+  table.add("intersections", fmt::format("{} through each other, the first in faces {} and {}",
+                                         count_of(found.count, "pair of triangles passes", "pairs of triangles pass"),
+                                         found.faces[0][0], found.faces[0][1]));
+}
+
+void describe_surface(const Mesh& mesh, const Topology& topology, const InfoArguments& arguments, Table& table,
                       Json& json) {
   const Scheme scheme = choose_scheme(mesh);
-  describe_topology(topology, table, json);
-  describe_seams(coincident_boundary_count(topology, mesh.points), arguments.repair, table, json);
-  describe_sizes(topology, mesh.points, table, json);
+  const Components components = connected_components(topology);
+  describe_topology(topology, components, table, json);
+  describe_seams(coincident_boundary_count(topology, mesh.points), arguments.common.repair, table, json);
+  describe_sizes(topology, components, mesh.points, table, json);
+  describe_intersections(mesh, topology, arguments, table, json);
   table.add("surface", scheme_text(scheme));
   json["scheme"] = scheme_json(scheme);
-  if (mesh.face_count() > 0) describe_interpolation(mesh, topology, scheme, arguments.quiet, table, json);
+  if (mesh.face_count() == 0) return;
+  describe_interpolation(mesh, topology, scheme, arguments.common.quiet, table, json);
+  if (arguments.curvature) {
+    const VertexCurvature curvature = measure_curvature(topology, scheme, mesh);
+    describe_curvature(curvature, table, json);
+    write_curvature(arguments.common, curvature, mesh, table, json);
+  }
 }
 
 }  // namespace
 
-int run_info(const CommonArguments& arguments) {
-  const ThreadLimit limit(arguments.threads);
+int run_info(const InfoArguments& arguments) {
+  const CommonArguments& common = arguments.common;
+  const ThreadLimit limit(common.threads);
   Json repairs;
   std::vector<std::string> notes;
-  const Mesh mesh = read_input(arguments, &repairs, &notes);
+  const Mesh mesh = read_input(common, &repairs, &notes);
   Table table;
-  Json json{{"verb", "info"}, {"input", arguments.input}, {"repairs", repairs}, {"notes", notes}};
+  Json json{{"verb", "info"}, {"input", common.input}, {"repairs", repairs}, {"notes", notes}};
   describe_mesh(mesh, table, json);
   describe_box(mesh, table, json);
   describe_values(mesh, table, json);
-  const std::optional<Topology> topology = topology_of(mesh, arguments.quiet);
+  const std::optional<Topology> topology = topology_of(mesh, common.quiet);
   json["problems"] = Json::array();
   if (topology) {
     describe_surface(mesh, *topology, arguments, table, json);
   } else {
-    const std::vector<MeshProblem> problems = check(mesh, 10, ProgressBar("checking", arguments.quiet).callback());
+    const std::vector<MeshProblem> problems = check(mesh, 10, ProgressBar("checking", common.quiet).callback());
     describe_problems(problems, table, json);
   }
-  if (!arguments.repair) describe_repair(mesh, topology, arguments.quiet, table, json);
-  table.print(arguments);
-  write_json(arguments.report, json);
+  if (arguments.curvature && (!topology || mesh.face_count() == 0)) {
+    throw Error(ErrorCode::BadArgument,
+                common.input + ": no surface can be made of this mesh, so it has no curvature (info tells why)");
+  }
+  if (!common.repair) describe_repair(mesh, topology, common.quiet, table, json);
+  table.print(common);
+  write_json(common.report, json);
   return 0;
 }
 

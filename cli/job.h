@@ -1,5 +1,6 @@
 /// \file What verbs do alike, from the input to the report.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,11 @@ struct Job {
   /// Limits the threads and reads the input; counts as a stage. The arguments must outlive it.
   Job(std::string verb_in, const CommonArguments& arguments);
 
-  /// The topology of the mesh; counts as a stage. Says on stderr where seams stay open.
+  /// The topology of the mesh; counts as a stage. Says on stderr where seams stay open. With --features the sharp edges
+  /// that are found become creases of the mesh first, and are told by print() and report().
   Topology connect();
+  /// The same, but the verb itself looks for the sharp edges.
+  Topology connect_as_given();
   /// Writes a mesh to the output, if there is one, and tells what its format loses; counts as a stage.
   void write(const Mesh& result);
   /// Prints the table with the seconds of the stages as its last row.
@@ -30,10 +34,11 @@ struct Job {
   const CommonArguments& common;
   ThreadLimit limit;
   Stages stages;
-  nlohmann::ordered_json repairs;      ///< null without --repair
-  std::vector<std::string> notes;      ///< what the readers skipped
-  std::vector<std::string> lost;       ///< what the output lacks
-  std::optional<Index> seam_vertices;  ///< coincident_boundary_count, known after connect()
+  nlohmann::ordered_json repairs;               ///< null without --repair
+  std::vector<std::string> notes;               ///< what the readers skipped
+  std::vector<std::string> lost;                ///< what the output lacks
+  std::optional<Index> seam_vertices;           ///< coincident_boundary_count, known after connect()
+  std::optional<std::vector<Crease>> features;  ///< the sharp edges that connect() found, where it looked for them
   Mesh mesh;
   UpAxis up;  ///< of the mesh as it was read
 };

@@ -16,7 +16,7 @@ struct Verbs {
   SharpenArguments sharpen;
   BandsArguments bands;
   DenoiseArguments denoise;
-  CommonArguments info;
+  InfoArguments info;
   InterpolateArguments interpolate;
   SubdivideArguments subdivide;
   CommonArguments convert;
@@ -53,10 +53,7 @@ int run(int argc, char** argv) {
   add_bands(app, verbs.bands, status);
   add_morph(app, verbs.morph, status);
   add_repair(app, verbs.repair, status);
-  CLI::App& info = *app.add_subcommand("info", "what a mesh is made of, and whether a surface can be made of it");
-  add_input(info, verbs.info);
-  add_repair_flag(info, verbs.info);
-  set_run(info, verbs.info, status, [&] { return run_info(verbs.info); });
+  add_info(app, verbs.info, status);
   CLI::App& convert = *app.add_subcommand("convert", "read one format, write another, and say what is lost");
   add_input(convert, verbs.convert);
   add_output(convert, verbs.convert);

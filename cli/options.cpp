@@ -32,9 +32,9 @@ const Names<UpAxis> kUpAxes{{"x", UpAxis::X},       {"y", UpAxis::Y},       {"z"
                             {"-x", UpAxis::MinusX}, {"-y", UpAxis::MinusY}, {"-z", UpAxis::MinusZ}};
 
 /// What --picture alone gives a meaning, in the verbs that have it.
-const std::vector<std::string> kPictureOptions{"--width",        "--height",      "--samples",
-                                               "--view",         "--turntable",   "--color",
-                                               "--before-after", "--transparent", "--color-moved"};
+const std::vector<std::string> kPictureOptions{"--width",       "--height",     "--samples", "--view",
+                                               "--turntable",   "--color",      "--range",   "--before-after",
+                                               "--transparent", "--color-moved"};
 
 /// A name, or three numbers with commas.
 std::string read_view(const std::string& words, PictureArguments& picture) {
@@ -63,6 +63,19 @@ void require_upright(const CLI::App& verb, const CommonArguments& common) {
   if (format == "glb" || format == "usda") return;
   throw UsageError(writes ? "--up does nothing for ." + format + ", only for pictures, .glb and .usda"
                           : std::string("--up does nothing without a picture, a .glb or a .usda"));
+}
+
+/// "A:B"; empty where the words are two ascending numbers.
+std::string read_range(const std::string& words, PictureArguments& picture) {
+  std::array<double, 2> range{};
+  std::istringstream text(words);
+  char between = ' ';
+  const bool read = static_cast<bool>(text >> range[0] >> between >> range[1]) && between == ':';
+  if (!read || !(text >> std::ws).eof() || !(range[0] < range[1])) {
+    return "'" + words + "' is not a range like 0:2.5, the smaller number first";
+  }
+  picture.range = range;
+  return "";
 }
 
 /// Standard output takes one picture.
@@ -129,6 +142,10 @@ void add_surface(CLI::App& verb, CommonArguments& common) {
   add_choice(verb, "--butterfly-boundary", common.butterfly_boundary, kButterflyBoundaries,
              "how Butterfly makes points beside boundaries and creases; reflect is the paper's");
   verb.add_flag("--triangulate", common.triangulate, "split all faces into triangles first");
+  verb.add_option("--features,--auto-creases", common.features,
+                  "find edges that are sharper than this, also in noise, and take them as creases")
+      ->check(number_in(1.0, 179.0))
+      ->option_text("DEGREES");
 }
 
 void add_picture_options(CLI::App& verb, PictureArguments& picture) {
@@ -153,7 +170,19 @@ void add_picture_options(CLI::App& verb, PictureArguments& picture) {
       ->option_text("N");
 }
 
+void add_range(CLI::App& verb, PictureArguments& picture) {
+  verb.add_option_function<std::string>(
+          "--range",
+          [&](const std::string& words) {
+            const std::string wrong = read_range(words, picture);
+            if (!wrong.empty()) throw CLI::ValidationError("--range", wrong);
+          },
+          "the numbers at the colour bar's ends; all but the 2 % at each end, if not given")
+      ->option_text("A:B");
+}
+
 void add_coloring(CLI::App& verb, PictureArguments& picture) {
+  add_range(verb, picture);
   add_choice(verb, "--color", picture.coloring, kColorings, "colour the surface by a measure, with a colour bar");
 }
 
@@ -197,6 +226,10 @@ void set_run(CLI::App& verb, CommonArguments& common, int& status, const std::fu
     require_with(verb, {"--ascii", "--output-format"}, {"--output"});
     if (verb.get_option_no_throw("--picture") != nullptr)
       require_with(verb, kPictureOptions, {"--picture", "--gallery"});
+    require_with(verb, {"--range"}, {"--color", "--color-moved", "--values", "--compare", "SCAN"});
+    const CLI::Option* color = verb.get_option_no_throw("--color");
+    if (color != nullptr && color->count() > 0 && color->as<std::string>() == "zebra")
+      require_alone(verb, "--color zebra", {"--range"});
     if (is_given(verb, "--turntable")) require_picture_files(verb);
     if (is_given(verb, "--output") && verb.get_option_no_throw("--output-format") != nullptr) {
       const std::string format = file_format(common.output, common.output_format);

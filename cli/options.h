@@ -42,6 +42,9 @@ void add_input(CLI::App& verb, CommonArguments& common, const std::string& name 
 void add_output(CLI::App& verb, CommonArguments& common);
 void add_surface(CLI::App& verb, CommonArguments& common);
 void add_picture_options(CLI::App& verb, PictureArguments& picture);
+/// The colour bar's range.
+void add_range(CLI::App& verb, PictureArguments& picture);
+/// What colours show, and the range of their bar.
 void add_coloring(CLI::App& verb, PictureArguments& picture);
 /// Adds --picture and what belongs to it, for verbs whose own output is a mesh.
 void add_picture(CLI::App& verb, PictureArguments& picture);

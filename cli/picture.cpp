@@ -15,9 +15,7 @@
 
 namespace batten::cli {
 
-ScaleRequest mean_curvature_scale() {
-  return {"mean curvature", "1 / unit", ColorMap::Diverging, 0.0, false, false, kWildShare};
-}
+ScaleRequest mean_curvature_scale() { return {"mean curvature", "1 / unit", ColorMap::Diverging}; }
 
 #ifdef BATTEN_WITH_RENDER
 
@@ -119,7 +117,7 @@ void draw_shots(const std::vector<Shot>& shots, RenderOptions options, const Col
 }  // namespace
 
 void draw(const Subject& subject, const PictureArguments& arguments, Job& job) {
-  const Scene after = scene_of(subject, arguments.coloring, job.common.quiet);
+  const Scene after = scene_of(subject, arguments, job.common.quiet);
   const Scene before = scene_before(subject);
   std::vector<Shot> shots;
   if (arguments.before_after) shots.push_back({&before, subject.before_caption, Shading::Plain});
@@ -150,7 +148,7 @@ static std::optional<ColorScale> share_scale(std::vector<Scene>& scenes, const S
 void draw_row(const std::vector<Subject>& subjects, const PictureArguments& arguments, Job& job) {
   std::vector<Scene> scenes;
   scenes.reserve(subjects.size());
-  for (const Subject& subject : subjects) scenes.push_back(scene_of(subject, arguments.coloring, job.common.quiet));
+  for (const Subject& subject : subjects) scenes.push_back(scene_of(subject, arguments, job.common.quiet));
   std::vector<Shot> shots;
   shots.reserve(subjects.size());
   for (std::size_t i = 0; i < subjects.size(); ++i) {
@@ -158,8 +156,11 @@ void draw_row(const std::vector<Subject>& subjects, const PictureArguments& argu
                      arguments.coloring == Coloring::Zebra ? Shading::Zebra : Shading::Plain});
   }
   std::optional<ColorScale> scale;
-  if (!subjects.empty() && subjects.back().numbers.size() > 0)
-    scale = share_scale(scenes, subjects.back().numbers_scale);
+  if (!subjects.empty() && subjects.back().numbers.size() > 0) {
+    ScaleRequest request = subjects.back().numbers_scale;
+    request.range = arguments.range;
+    scale = share_scale(scenes, request);
+  }
   draw_shots(shots, render_options(arguments, Layout(shots.size()), job), scale ? &*scale : nullptr, arguments, job);
 }
 

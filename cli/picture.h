@@ -19,7 +19,8 @@ struct Subject {
   Points markers = Points(0, 3);
   double marker_radius = 0.0;       ///< in the mesh's unit; 0: the renderer's choice
   const Points* targets = nullptr;  ///< of the vertices, for Coloring::Error
-  Scalars numbers;                  ///< instead of a Coloring: one a marker, or one a vertex where there is no marker
+  /// Instead of a Coloring: one a marker, or where there is no marker one a vertex of `control`, linear over its faces.
+  Scalars numbers;
   ScaleRequest numbers_scale;
   const Mesh* before = nullptr;  ///< as it is, for the left panel
   std::string before_caption;
@@ -29,10 +30,6 @@ struct Subject {
 /// Draws with the job's axis up, and writes. What is left out of the picture is said on stderr and added to the job's
 /// notes. Throws what the operators throw, and Error(NotAvailable) in a build without pictures.
 void draw(const Subject& subject, const PictureArguments& arguments, Job& job);
-
-/// The share of numbers that may lie beyond a colour bar: curvature has no bound at extraordinary points, and a few
-/// numbers must not take the whole bar.
-inline constexpr double kWildShare = 0.02;
 
 /// The request that --color mean makes.
 ScaleRequest mean_curvature_scale();

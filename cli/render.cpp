@@ -1,3 +1,7 @@
+#include <string>
+#include <vector>
+
+#include "batten/error.h"
 #include "batten/io/io.h"
 #include "batten/limit/limit_matrix.h"
 #include "batten/tessellate/surface_mesh.h"
@@ -5,6 +9,53 @@
 #include "cli/picture.h"
 
 namespace batten::cli {
+
+namespace {
+
+bool is_number(const Attribute& attribute) {
+  const bool named = attribute.name == "normal" || attribute.name == "uv" || attribute.name == "color";
+  return !attribute.per_corner() && !named;
+}
+
+/// The attribute that --values and --value name. Throws Error(BadArgument).
+const Attribute& chosen_values(const RenderArguments& arguments, const Mesh& file) {
+  std::vector<const Attribute*> found;
+  std::string names;
+  for (const Attribute& attribute : file.attributes) {
+    const bool fits = arguments.value.empty() ? is_number(attribute) : attribute.name == arguments.value;
+    if (fits && !attribute.per_corner()) found.push_back(&attribute);
+    if (!is_number(attribute)) continue;
+    names += names.empty() ? "" : ", ";
+    names += attribute.name;
+  }
+  if (found.size() == 1) return *found.front();
+  const std::string have = names.empty() ? ": the file has no numbers at its vertices besides colours and the like"
+                                         : "; the file has " + names;
+  throw Error(ErrorCode::BadArgument, arguments.values +
+                                          (arguments.value.empty() ? ": say by --value which numbers to draw"
+                                                                   : ": there is no value '" + arguments.value + "'") +
+                                          have);
+}
+
+/// Puts the numbers of a file into the subject: of several columns their length.
+void add_values(const RenderArguments& arguments, Job& job, Subject& subject) {
+  const Mesh file = read_file(arguments.values, "", job.common.quiet, &job.notes);
+  const Attribute& chosen = chosen_values(arguments, file);
+  if (file.vertex_count() != job.mesh.vertex_count()) {
+    throw Error(ErrorCode::BadShape, arguments.values + ": its " +
+                                         count_of(file.vertex_count(), "vertex has", "vertices have") +
+                                         " numbers, but there are " + grouped(job.mesh.vertex_count()) +
+                                         " vertices to draw; both files must have the same vertices");
+  }
+  const bool one = chosen.values.cols() == 1;
+  subject.numbers = one ? Scalars(chosen.values.col(0)) : Scalars(chosen.values.rowwise().norm());
+  subject.numbers_scale.title = one ? chosen.name : "length of " + chosen.name;
+  if (subject.numbers.size() == 0) return;
+  const bool both_signs = subject.numbers.minCoeff() < 0.0 && subject.numbers.maxCoeff() > 0.0;
+  subject.numbers_scale.map = both_signs ? ColorMap::Diverging : ColorMap::Sequential;
+}
+
+}  // namespace
 
 int run_render(const RenderArguments& arguments) {
   const CommonArguments& common = arguments.common;
@@ -22,6 +73,7 @@ int run_render(const RenderArguments& arguments) {
     targets = read_file(arguments.targets, "", arguments.common.quiet);
     subject.targets = &targets.points;
   }
+  if (!arguments.values.empty()) add_values(arguments, job, subject);
   std::string shown = "as it is";
   if (!subject.flat) {
     const Topology topology = job.connect();

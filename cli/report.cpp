@@ -27,6 +27,12 @@ nlohmann::ordered_json repairs_json(const RepairResult& repaired) {
           {"face_targets", repaired.face_targets}};
 }
 
+nlohmann::ordered_json edges_json(const std::vector<Crease>& edges) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const Crease& edge : edges) json.push_back({edge.a, edge.b});
+  return json;
+}
+
 nlohmann::ordered_json scheme_json(const Scheme& scheme) {
   static constexpr const char* kKinds[] = {"catmull-clark", "loop", "butterfly", "modified-butterfly"};
   static constexpr const char* kBoundaries[] = {"none", "edge-and-corner", "edge-only"};

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "batten/mesh/repair.h"
 #include "batten/scheme/scheme.h"
@@ -13,6 +14,8 @@ namespace batten::cli {
 void write_json(const std::string& path, const nlohmann::ordered_json& json);
 nlohmann::ordered_json repairs_json(const RepairResult& repaired);
 nlohmann::ordered_json scheme_json(const Scheme& scheme);
+/// The two vertices of each.
+nlohmann::ordered_json edges_json(const std::vector<Crease>& edges);
 /// The most memory this process has held, in bytes; 0 where the system does not tell.
 std::int64_t peak_memory_bytes();
 

@@ -41,16 +41,25 @@ ScaleRequest scale_request(Coloring coloring, SchemeKind kind) {
     case Coloring::Error:
       return {"error", "in the mesh's unit", ColorMap::Sequential, 0.0, true};
     case Coloring::Moved:
-      return {"distance moved", "in the mesh's unit", ColorMap::Sequential, 0.0, false, false, kWildShare};
+      return {"distance moved", "in the mesh's unit", ColorMap::Sequential};
     case Coloring::Mean:
       return mean_curvature_scale();
     case Coloring::Gaussian:
-      return {"Gaussian curvature", "1 / unit²", ColorMap::Diverging, 0.0, false, false, kWildShare};
+      return {"Gaussian curvature", "1 / unit²", ColorMap::Diverging};
     case Coloring::Valence:
       return {"valence", "", ColorMap::Diverging, kind == SchemeKind::Loop ? 6.0 : 4.0, false, true};
     default:
-      return {"sharpness", "levels; 10: for ever", ColorMap::Sequential, 0.0, false, false};
+      break;
   }
+  ScaleRequest sharpness{"sharpness", "levels; 10: for ever", ColorMap::Sequential};
+  sharpness.outliers = 0.0;  // none is above 10
+  return sharpness;
+}
+
+/// The scale of the numbers, or that of the range asked for.
+ColorScale scale_of(const Eigen::Ref<const Scalars>& numbers, ScaleRequest request, const PictureArguments& arguments) {
+  request.range = arguments.range;
+  return fit_color_scale(numbers, request);
 }
 
 /// The part of a mesh that the renderer draws: points, faces and holes.
@@ -83,6 +92,10 @@ Topology topology_of(const Subject& subject, const Progress& progress) {
   return subject.topology ? *subject.topology : Topology(*subject.control, progress);
 }
 
+int levels_of(const Subject& subject, const Topology& topology) {
+  return subject.levels >= 0 ? subject.levels : picture_levels(topology);
+}
+
 FieldSurface field_surface(const Subject& subject, const Topology& topology) {
   return {topology, subject.scheme, subject.control->points, subject.targets};
 }
@@ -97,7 +110,7 @@ Values shading_normals(const Mesh& surface) {
 /// The limit surface with its exact normals and, if asked for, its numbers.
 Scene surface_scene(const Subject& subject, Coloring coloring, const Progress& progress) {
   const Topology topology = topology_of(subject, progress);
-  const int levels = subject.levels >= 0 ? subject.levels : picture_levels(topology);
+  const int levels = levels_of(subject, topology);
   Mesh control;
   control.points = subject.control->points;
   if (const Attribute* colors = vertex_colors(*subject.control)) control.attributes.push_back(*colors);
@@ -125,7 +138,7 @@ Scene flat_scene(const Subject& subject, Coloring coloring, const Progress& prog
 }
 
 /// Dots at the vertices that are not regular, in the colours of their valence.
-void add_valences(const Subject& subject, const Topology& topology, Scene& scene) {
+void add_valences(const Subject& subject, const Topology& topology, const PictureArguments& arguments, Scene& scene) {
   const Scalars valences = vertex_valences(topology);
   const ScaleRequest request = scale_request(Coloring::Valence, subject.scheme.kind);
   std::vector<Index> irregular;
@@ -134,12 +147,12 @@ void add_valences(const Subject& subject, const Topology& topology, Scene& scene
   }
   scene.markers = scene.surface.points(irregular, Eigen::all);
   scene.marker_scalars = valences(irregular);
-  scene.scale = fit_color_scale(valences, request);
+  scene.scale = scale_of(valences, request, arguments);
 }
 
 /// Lines along the creases of the surface, or of the mesh as it is.
 std::vector<CreaseCurve> curves_of(const Subject& subject, const Topology& topology, bool flat) {
-  const int levels = flat ? 0 : subject.levels >= 0 ? subject.levels : picture_levels(topology);
+  const int levels = flat ? 0 : levels_of(subject, topology);
   if (levels > 0) return crease_curves(topology, Tessellator(topology, subject.scheme, levels));
   std::vector<CreaseCurve> curves;
   for (Index e = 0; e < topology.edge_count(); ++e) {
@@ -151,7 +164,8 @@ std::vector<CreaseCurve> curves_of(const Subject& subject, const Topology& topol
 }
 
 /// Lines along the creases and dots at the sharp vertices, in the colours of their sharpness.
-void add_sharpness(const Subject& subject, const Topology& topology, bool flat, Scene& scene) {
+void add_sharpness(const Subject& subject, const Topology& topology, bool flat, const PictureArguments& arguments,
+                   Scene& scene) {
   std::vector<double> numbers;
   scene.lines.points = scene.surface.points;
   for (const CreaseCurve& curve : curves_of(subject, topology, flat)) {
@@ -173,8 +187,8 @@ void add_sharpness(const Subject& subject, const Topology& topology, bool flat, 
     numbers.push_back(sharpness);
   }
   const Eigen::Map<const Scalars> all(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
-  scene.scale = fit_color_scale(all, scale_request(Coloring::Sharpness, subject.scheme.kind));
-  scene.scale.low = 0.0;
+  scene.scale = scale_of(all, scale_request(Coloring::Sharpness, subject.scheme.kind), arguments);
+  if (!arguments.range) scene.scale.low = 0.0;
 }
 
 /// Adds the control mesh as lines without numbers.
@@ -197,9 +211,24 @@ void add_control(const Mesh& control, Scene& scene) {
   scene.line_scalars.tail(lines.face_count() - old).setConstant(std::numeric_limits<double>::quiet_NaN());
 }
 
+/// The subject's own numbers and their scale, which is that of the numbers given.
+void add_numbers(const Subject& subject, const PictureArguments& arguments, Scene& scene) {
+  scene.scale = scale_of(subject.numbers, subject.numbers_scale, arguments);
+  if (subject.markers.rows() > 0) {
+    scene.marker_scalars = subject.numbers;
+    scene.surface_color = kNeutral;
+  } else if (scene.surface.vertex_count() == subject.numbers.size()) {
+    scene.scalars = subject.numbers;
+  } else {
+    const Topology topology = topology_of(subject, {});
+    scene.scalars = spread_field(field_surface(subject, topology), subject.numbers, levels_of(subject, topology));
+  }
+}
+
 }  // namespace
 
-Scene scene_of(const Subject& subject, Coloring coloring, bool quiet) {
+Scene scene_of(const Subject& subject, const PictureArguments& arguments, bool quiet) {
+  const Coloring coloring = arguments.coloring;
   if (coloring == Coloring::Error && subject.targets == nullptr) {
     throw Error(ErrorCode::BadArgument,
                 "--color error needs the points that the surface should pass through: name their mesh by --targets");
@@ -208,22 +237,17 @@ Scene scene_of(const Subject& subject, Coloring coloring, bool quiet) {
   const bool flat = subject.flat || subject.control->face_count() == 0;
   Scene scene = flat ? flat_scene(subject, coloring, bar.callback()) : surface_scene(subject, coloring, bar.callback());
   if (is_field(coloring)) {
-    scene.scale = fit_color_scale(scene.scalars, scale_request(coloring, subject.scheme.kind));
+    scene.scale = scale_of(scene.scalars, scale_request(coloring, subject.scheme.kind), arguments);
   }
   scene.markers = subject.markers;
   if (coloring == Coloring::Valence || coloring == Coloring::Sharpness) {
     const Topology topology = topology_of(subject, bar.callback());
     scene.surface_color = kNeutral;
     scene.colors.resize(0, 3);
-    if (coloring == Coloring::Valence) add_valences(subject, topology, scene);
-    if (coloring == Coloring::Sharpness) add_sharpness(subject, topology, flat, scene);
+    if (coloring == Coloring::Valence) add_valences(subject, topology, arguments, scene);
+    if (coloring == Coloring::Sharpness) add_sharpness(subject, topology, flat, arguments, scene);
   }
-  if (subject.numbers.size() > 0) {
-    const bool at_markers = subject.markers.rows() > 0;
-    (at_markers ? scene.marker_scalars : scene.scalars) = subject.numbers;
-    scene.scale = fit_color_scale(subject.numbers, subject.numbers_scale);
-    if (at_markers) scene.surface_color = kNeutral;
-  }
+  if (subject.numbers.size() > 0) add_numbers(subject, arguments, scene);
   if (subject.draw_control) add_control(*subject.control, scene);
   return scene;
 }

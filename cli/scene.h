@@ -6,7 +6,7 @@
 namespace batten::cli {
 
 /// Throws what the operators throw, and Error(BadArgument) for a colouring that the subject cannot have.
-Scene scene_of(const Subject& subject, Coloring coloring, bool quiet);
+Scene scene_of(const Subject& subject, const PictureArguments& arguments, bool quiet);
 
 /// The mesh of the left panel, as it is.
 Scene scene_before(const Subject& subject);

@@ -29,6 +29,7 @@ void add_color_moved(CLI::App& verb, PictureArguments& picture) {
   verb.add_flag_callback(
       "--color-moved", [&picture] { picture.coloring = Coloring::Moved; },
       "colour the picture by how far each vertex was moved");
+  add_range(verb, picture);
 }
 
 /// "f4f2ee,#3a3f48": colours as they stand in web pages.
@@ -108,7 +109,8 @@ void add_denoise(CLI::App& app, DenoiseArguments& arguments, int& status) {
   add_surface(verb, arguments.common);
   DenoiseOptions& options = arguments.options;
   CLI::Option* automatic =
-      verb.add_flag("--auto", options.automatic, "measure the noise, and smooth as much as takes it away");
+      verb.add_flag("--auto", options.automatic,
+                    "measure the noise, and smooth as much as takes it away: what is done where nothing else is said");
   CLI::Option* strength =
       verb.add_option("--strength", arguments.strength, "how long a bump may be, in edge lengths, and still vanish")
           ->check(number_in(2.0, 1000.0))
@@ -126,19 +128,12 @@ void add_denoise(CLI::App& app, DenoiseArguments& arguments, int& status) {
   add_series(verb, options.matrix);
   verb.add_flag("--keep-boundary", options.keep_boundary, "leave boundary vertices where they are");
   verb.add_flag("--keep-volume", options.keep_volume, "scale closed components to the volume that they had");
-  verb.add_option_function<double>(
-          "--features",
-          [&options](const double& degrees) {
-            options.features = true;
-            options.feature_options.degrees = degrees;
-          },
-          "find edges that are sharper than this, smooth along them only, and write them as creases")
-      ->check(number_in(1.0, 179.0))
-      ->option_text("DEGREES");
   add_picture(verb, arguments.picture);
   add_color_moved(verb, arguments.picture);
   set_run(verb, arguments.common, status, [&] {
     require_output(verb);
+    const bool chosen = is_given(verb, "--strength") || is_given(verb, "--passes") || is_given(verb, "-m");
+    if (!chosen) arguments.options.automatic = true;
     return run_denoise(arguments);
   });
 }

@@ -81,6 +81,7 @@ void add_subdivide(CLI::App& app, SubdivideArguments& arguments, int& status) {
                 "measure how fair Butterfly, Modified Butterfly and the interpolated Loop and Catmull-Clark surfaces "
                 "of a triangle mesh are; --picture draws them side by side by their mean curvature");
   add_picture(verb, arguments.picture);
+  add_range(verb, arguments.picture);
   set_run(verb, arguments.common, status, [&] {
     require_output(verb, {"--compare"});
     if (arguments.compare) {
@@ -110,16 +111,22 @@ void add_render(CLI::App& app, RenderArguments& arguments, int& status) {
   add_coloring(verb, arguments.picture);
   add_input_file(verb, "--targets", arguments.targets,
                  "for --color error: the mesh whose vertices it should pass through");
+  add_input_file(verb, "--values", arguments.values,
+                 "colour by numbers that this mesh file has at its vertices, one a vertex of INPUT (PLY)");
+  verb.add_option("--value", arguments.value, "for --values: the name of the numbers, where the file has several")
+      ->option_text("NAME");
   verb.add_flag("--flat", arguments.flat, "draw the mesh as it is");
   verb.add_flag("--control", arguments.control, "with the control mesh as lines");
   verb.add_flag("--points", arguments.points, "with the vertices' limit positions");
   set_run(verb, arguments.common, status, [&] {
     if (arguments.picture.coloring != Coloring::Error && is_given(verb, "--targets"))
       throw UsageError("--targets does nothing without --color error");
+    require_with(verb, {"--value"}, {"--values"});
+    if (is_given(verb, "--values")) require_alone(verb, "--values", {"--color"});
     if (arguments.flat) {
       require_alone(verb, "--flat",
                     {"--levels", "--scheme", "--boundary", "--creases", "--triangles", "--alpha", "--tension",
-                     "--butterfly-boundary"});
+                     "--butterfly-boundary", "--features"});
     }
     return run_render(arguments);
   });
@@ -134,15 +141,30 @@ void add_distance(CLI::App& app, DistanceArguments& arguments, int& status) {
   verb.add_flag("--ascii", arguments.common.ascii, "PLY as text");
   add_surface(verb, arguments.common);
   add_picture(verb, arguments.picture);
+  add_range(verb, arguments.picture);
   set_run(verb, arguments.common, status, [&] {
     arguments.common.output_format = "ply";
     return run_distance(arguments);
   });
 }
 
+void add_info(CLI::App& app, InfoArguments& arguments, int& status) {
+  CLI::App& verb = *app.add_subcommand("info", "what a mesh is made of, and whether a surface can be made of it");
+  add_input(verb, arguments.common);
+  add_output(verb, arguments.common);
+  add_repair_flag(verb, arguments.common);
+  verb.add_flag("--curvature", arguments.curvature,
+                "the surface's mean and Gaussian curvature at the vertices; -o writes the mesh with them");
+  verb.add_flag("--self-intersections", arguments.self_intersections,
+                "look for faces that pass through each other also in a mesh of more than 300,000 triangles");
+  set_run(verb, arguments.common, status, [&] {
+    require_with(verb, {"--output"}, {"--curvature"});
+    return run_info(arguments);
+  });
+}
+
 void add_repair(CLI::App& app, RepairArguments& arguments, int& status) {
-  CLI::App& verb =
-      *app.add_subcommand("repair", "repair a mesh that has no surface, and list what was changed");
+  CLI::App& verb = *app.add_subcommand("repair", "repair a mesh that has no surface, and list what was changed");
   add_input(verb, arguments.common);
   add_output(verb, arguments.common);
   CLI::Option* weld =

@@ -59,6 +59,11 @@ std::string seams_text(Index count, bool repaired) {
          (repaired ? "" : "; --repair welds them");
 }
 
+std::string features_text(const std::vector<Crease>& features, double degrees) {
+  return count_of(static_cast<std::int64_t>(features.size()), "sharp edge", "sharp edges") +
+         fmt::format(" of over {:g} degrees", degrees);
+}
+
 std::string method_text(const SolveReport& report) {
   if (report.iterations == 0) return report.method_name;
   return report.method_name + ", " + count_of(report.iterations, "iteration", "iterations");

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "batten/mesh/topology.h"
 #include "batten/scheme/scheme.h"
@@ -20,6 +21,8 @@ std::string mesh_text(const Topology& topology);
 std::string scheme_text(const Scheme& scheme);
 /// "16 vertices of open edges lie on others: seams stay open; --repair welds them"
 std::string seams_text(Index count, bool repaired);
+/// "596 sharp edges of over 40 degrees"
+std::string features_text(const std::vector<Crease>& features, double degrees);
 /// "Chebyshev in tiles, 30 iterations"; without iterations where there was none to make.
 std::string method_text(const SolveReport& report);
 

@@ -125,7 +125,11 @@ void require_with(const CLI::App& verb, const std::vector<std::string>& options,
   const auto given = [&](const std::string& option) { return is_given(verb, option); };
   if (std::any_of(needed.begin(), needed.end(), given)) return;
   std::string names;
-  for (const std::string& name : needed) names += (names.empty() ? "" : " or ") + name;
+  for (const std::string& name : needed) {
+    if (verb.get_option_no_throw(name) == nullptr) continue;
+    names += names.empty() ? "" : " or ";
+    names += name;
+  }
   const auto option = std::find_if(options.begin(), options.end(), given);
   if (option != options.end()) throw UsageError(*option + " does nothing without " + names);
 }

@@ -10,6 +10,7 @@ void add_interpolate(CLI::App& app, InterpolateArguments& arguments, int& status
 void add_subdivide(CLI::App& app, SubdivideArguments& arguments, int& status);
 void add_render(CLI::App& app, RenderArguments& arguments, int& status);
 void add_distance(CLI::App& app, DistanceArguments& arguments, int& status);
+void add_info(CLI::App& app, InfoArguments& arguments, int& status);
 void add_repair(CLI::App& app, RepairArguments& arguments, int& status);
 void add_denoise(CLI::App& app, DenoiseArguments& arguments, int& status);
 void add_sharpen(CLI::App& app, SharpenArguments& arguments, int& status);

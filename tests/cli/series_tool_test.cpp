@@ -48,6 +48,9 @@ TEST_F(Tool, DenoisesByAStrengthInEdgeLengths) {
   ASSERT_EQ(run("denoise " + kModels + "torus-knot.obj --passes 19 -o b.obj").status, 0);
   EXPECT_EQ(text_of(path("a.obj")), text_of(path("b.obj")));
   EXPECT_EQ(run("denoise " + kModels + "torus-knot.obj --passes 3 --auto").status, 2);
+  ASSERT_EQ(run("denoise " + kModels + "bracket-scan.obj --auto -o auto.obj").status, 0);
+  ASSERT_EQ(run("denoise " + kModels + "bracket-scan.obj -o plain.obj").status, 0);
+  EXPECT_EQ(text_of(path("plain.obj")), text_of(path("auto.obj")));
   EXPECT_EQ(run("denoise " + kModels + "torus-knot.obj --strength 1.5").status, 2);
   write("points.xyz", "0 0 0\n1 0 0\n0 1 0\n");
   const Outcome points = run("denoise points.xyz -o c.obj");

@@ -57,6 +57,13 @@ TEST_F(Usage, OptionsWithoutAnEffectAreRefused) {
   expect_refused("interpolate x.obj -o a.obj --color mean", "--color does nothing without --picture");
   expect_refused("subdivide x.obj -o a.obj --turntable 8", "--turntable does nothing without --picture");
   expect_refused("texture x.obj -o a.obj --width 8", "--width does nothing without --picture or --gallery");
+  expect_refused("interpolate x.obj -o a.obj --picture a.png --range 0:1", "--range does nothing without --color");
+  expect_refused("interpolate x.obj -o a.obj --color mean --range 0:1", "does nothing without --picture");
+  expect_refused("render x.obj -o a.png --color zebra --range 0:1", "--range does nothing with --color zebra");
+  expect_refused("render x.obj -o a.png --color mean --range 1:0", "'1:0' is not a range like 0:2.5");
+  expect_refused("render x.obj -o a.png --values y.ply --color mean", "--color does nothing with --values");
+  expect_refused("render x.obj -o a.png --value height", "--value does nothing without --values");
+  expect_refused("render x.obj -o a.png --flat --features 40", "--features does nothing with --flat");
   expect_refused("denoise x.obj -o a.obj --color-moved", "--color-moved does nothing without --picture");
   expect_refused("interpolate x.obj --report r.json --ascii", "--ascii does nothing without --output");
   expect_refused("convert x.obj -o a.obj --ascii", "--ascii does nothing for .obj");

@@ -123,6 +123,19 @@ TEST(SurfaceField, HasTheSurfacesCurvature) {
   }
 }
 
+TEST(SurfaceField, NumbersAtVerticesStayThereAndAreLinearBetween) {
+  const Mesh mesh = grid(2, 2);
+  const Topology topology(mesh);
+  const FieldSurface surface{topology, Scheme(), mesh.points};
+  const Scalars numbers = 3.0 * mesh.points.col(0) - mesh.points.col(1);
+  EXPECT_TRUE((spread_field(surface, numbers, 0).array() == numbers.array()).all());
+  const Scalars fine = spread_field(surface, numbers, 2);
+  EXPECT_EQ(fine.size(), 9 * 9);
+  EXPECT_LE((fine.head(9) - numbers).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_NEAR(fine.mean(), numbers.mean(), 1e-12);
+  EXPECT_THROW(spread_field(surface, Scalars::Zero(8), 1), Error);
+}
+
 TEST(SurfaceField, MissesItsTargetsByTheDistance) {
   const Mesh mesh = cube();
   const Topology topology(mesh);

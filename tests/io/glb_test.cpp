@@ -260,5 +260,19 @@ TEST(GlbWriter, RefusesWhatGlbCannotHold) {
   EXPECT_EQ(folder.file_count(), 0);
 }
 
+TEST(Glb, NumbersWithoutANameInGltfHaveNamesOfTheirOwn) {
+  Mesh mesh = octahedron();
+  const Values heights = mesh.points.col(2);
+  mesh.attributes = {{"Mean height", heights, {}}, {"band", Values::Ones(6, 3), {}}, {"wide", Values::Ones(6, 5), {}}};
+  const tinygltf::Model model = written(mesh);
+  const Floats places = floats(model, "POSITION");
+  const Floats found = floats(model, "_MEAN_HEIGHT");
+  ASSERT_EQ(found.rows(), places.rows());
+  ASSERT_EQ(found.cols(), 1);
+  EXPECT_TRUE((found.col(0).array() == places.col(2).array()).all());
+  EXPECT_EQ(floats(model, "_BAND").cols(), 3);
+  EXPECT_EQ(floats(model, "_WIDE").size(), 0);
+}
+
 }  // namespace
 }  // namespace batten::io_tests

@@ -57,5 +57,25 @@ TEST(Places, CountsVerticesThatLieOnEarlierOnes) {
   EXPECT_EQ(coincident_count(points), 1);
 }
 
+/// So many points are sorted into parts first.
+TEST(Places, TheFirstOfEqualPointsIsFoundAmongMany) {
+  constexpr Index kCount = 100000;
+  Points points(kCount, 3);
+  for (Index v = 0; v < kCount; ++v) {
+    const Index place = v < kCount / 2 ? v : (v * 7) % (kCount / 2);
+    points.row(v) << 0.1 * (place % 100), 0.1 * (place / 100 % 100), place / 10000;
+  }
+  Buffer<Index> rows(kCount);
+  for (Index v = 0; v < kCount; ++v) rows[v] = kCount - 1 - v;
+  const Buffer<Index> first = first_equal(points, rows);
+  std::map<Index, Index> met;
+  for (Index i = 0; i < kCount; ++i) {
+    const Index v = rows[i];
+    const Index place = v < kCount / 2 ? v : (v * 7) % (kCount / 2);
+    ASSERT_EQ(first[i], met.emplace(place, i).first->second) << i;
+  }
+  EXPECT_EQ(coincident_count(points), kCount / 2);
+}
+
 }  // namespace
 }  // namespace batten

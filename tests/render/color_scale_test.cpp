@@ -88,6 +88,41 @@ TEST(ColorScale, OutliersDoNotTakeTheBar) {
   EXPECT_EQ(scale.highest, 1e6);
 }
 
+TEST(ColorScale, AFewNumbersDoNotTakeTheBarByDefault) {
+  Eigen::VectorXd values = Eigen::VectorXd::LinSpaced(1000, 0.0, 1.0);
+  values[500] = 1e6;
+  const ColorScale scale = fit_color_scale(values, {"height", "m"});
+  EXPECT_LE(scale.high, 1.0);
+  EXPECT_GT(scale.high, 0.9);
+  EXPECT_NEAR(scale.share_above, 0.02, 0.002);
+  EXPECT_EQ(scale.share_below, 0.0);
+  EXPECT_EQ(scale.highest, 1e6);
+}
+
+TEST(ColorScale, WhatFewNumbersOnlyDifferByIsShown) {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(1000);
+  values[7] = 3.0;
+  const ColorScale scale = fit_color_scale(values, {"moved", "m"});
+  EXPECT_EQ(scale.low, 0.0);
+  EXPECT_EQ(scale.high, 3.0);
+  EXPECT_EQ(scale.share_above, 0.0);
+}
+
+TEST(ColorScale, ARangeIsTakenAsItIs) {
+  const Eigen::VectorXd values = Eigen::VectorXd::LinSpaced(101, -1.0, 3.0);
+  for (const ColorMap map : {ColorMap::Sequential, ColorMap::Diverging}) {
+    ScaleRequest asked = request(map);
+    asked.range = {-0.5, 2.0};
+    const ColorScale scale = fit_color_scale(values, asked);
+    EXPECT_EQ(scale.low, -0.5);
+    EXPECT_EQ(scale.high, 2.0);
+    EXPECT_NEAR(scale.share_below, 13.0 / 101.0, 1e-12);
+    EXPECT_NEAR(scale.share_above, 25.0 / 101.0, 1e-12);
+    asked.range = {2.0, 2.0};
+    EXPECT_EQ(code_of([&] { fit_color_scale(values, asked); }), ErrorCode::BadArgument);
+  }
+}
+
 TEST(ColorScale, LogarithmsHaveEqualStepsForEqualRatios) {
   Eigen::VectorXd values(5);
   values << 0.0, 1e-12, 1e-10, 1e-8, 1e-6;

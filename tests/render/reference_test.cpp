@@ -45,7 +45,7 @@ Picture tripod_picture() {
   plain.normals = limit_normals(fine.topology, scheme, fine.values).corners;
   Scene colored = plain;
   colored.scalars = plain.surface.points.col(2);
-  colored.scale = fit_color_scale(colored.scalars, {"height", "unit", ColorMap::Sequential});
+  colored.scale = fit_color_scale(colored.scalars, {"height", "unit", ColorMap::Sequential, 0.0, false, false, 0.0});
   plain.lines = mesh;
   plain.markers = LimitMatrix(topology, scheme).apply(mesh.points);
   RenderOptions options;

@@ -80,7 +80,7 @@ TEST(Render, GivenColorsAreDrawn) {
 TEST(Render, ScalarsAreDrawnInTheColoursOfTheirScale) {
   Scene scene = sphere_scene();
   scene.scalars = scene.surface.points.col(0);
-  scene.scale = fit_color_scale(scene.scalars, {"x", "", ColorMap::Diverging});
+  scene.scale = fit_color_scale(scene.scalars, {"x", "", ColorMap::Diverging, 0.0, false, false, 0.0});
   const Picture picture = picture_without_ground(scene);
   const Pixel left = pixel(picture, 60, 90);
   const Pixel right = pixel(picture, 180, 90);

@@ -67,7 +67,9 @@ class TriangleTree {
     });
     sort();
     Buffer<Box> boxes(triangles_.size());
-    for (std::size_t t = 0; t < triangles_.size(); ++t) boxes[t] = box_of(triangles_[t]);
+    parallel_for(count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+      for (std::ptrdiff_t t = begin; t < end; ++t) boxes[t] = box_of(triangles_[t]);
+    });
     levels_.push_back(std::move(boxes));
     while (levels_.back().size() > 1) add_level();
   }

@@ -85,6 +85,12 @@ Scalars vertex_field(const FieldSurface& surface, SurfaceField field) {
   return (limit - surface.control).rowwise().norm();
 }
 
+Scalars spread_field(const FieldSurface& surface, const Scalars& numbers, int levels) {
+  require_vertex_rows(surface.topology, numbers);
+  if (levels == 0) return numbers;
+  return spread(surface.topology, Tessellator(surface.topology, surface.scheme, levels), numbers);
+}
+
 Scalars surface_field(const FieldSurface& surface, SurfaceField field, int levels) {
   const bool mean = field == SurfaceField::MeanCurvature;
   if (levels == 0) {

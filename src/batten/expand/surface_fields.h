@@ -40,4 +40,8 @@ Scalars vertex_field(const FieldSurface& surface, SurfaceField field);
 /// either. O(4^levels H), threaded. Throws what vertex_field, LimitSurface and Tessellator throw.
 Scalars surface_field(const FieldSurface& surface, SurfaceField field, int levels);
 
+/// Numbers given at the control mesh's vertices, one each, spread linearly over its faces: a number for each vertex of
+/// surface_mesh(topology, scheme, control, levels). O(4^levels H). Throws Error(BadShape) and what Tessellator throws.
+Scalars spread_field(const FieldSurface& surface, const Scalars& numbers, int levels);
+
 }  // namespace batten

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
+
+#include "batten/parallel/parallel.h"
 
 namespace batten {
 
@@ -28,8 +31,12 @@ Index ComponentVolumes::closed_count() const { return static_cast<Index>(std::co
 double ComponentVolumes::sum() const { return std::accumulate(volumes.begin(), volumes.end(), 0.0); }
 
 ComponentVolumes component_volumes(const Topology& topology, ConstValuesRef points) {
+  return component_volumes(topology, points, connected_components(topology));
+}
+
+ComponentVolumes component_volumes(const Topology& topology, ConstValuesRef points, Components components) {
   require_vertex_rows(topology, points);
-  ComponentVolumes result{connected_components(topology), {}, {}};
+  ComponentVolumes result{std::move(components), {}, {}};
   const auto count = static_cast<std::size_t>(result.components.count);
   result.closed.assign(count, 1);
   result.volumes.assign(count, 0.0);
@@ -42,11 +49,15 @@ ComponentVolumes component_volumes(const Topology& topology, ConstValuesRef poin
   for (Index v = 0; v < topology.vertex_count(); ++v) {
     if (first[of_vertex[v]] < 0) first[of_vertex[v]] = v;
   }
-  for (Index f = 0; f < topology.face_count(); ++f) {
-    const Index component = of_vertex[topology.origin(topology.face_begin(f))];
-    if (result.closed[component] == 0) continue;
-    result.volumes[component] += face_volume(topology, points, first[component], f);
-  }
+  const auto component_of = [&](Index f) { return of_vertex[topology.origin(topology.face_begin(f))]; };
+  Buffer<double> volumes(static_cast<std::size_t>(topology.face_count()));
+  parallel_for(topology.face_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (auto f = static_cast<Index>(begin); f < end; ++f) {
+      const Index component = component_of(f);
+      volumes[f] = result.closed[component] == 0 ? 0.0 : face_volume(topology, points, first[component], f);
+    }
+  });
+  for (Index f = 0; f < topology.face_count(); ++f) result.volumes[component_of(f)] += volumes[f];
   return result;
 }
 

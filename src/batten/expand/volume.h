@@ -17,6 +17,9 @@ struct ComponentVolumes {
 /// points: V-by-3. Each face is a fan about its centroid. O(H).
 ComponentVolumes component_volumes(const Topology& topology, ConstValuesRef points);
 
+/// The same where the components are known: connected_components(topology).
+ComponentVolumes component_volumes(const Topology& topology, ConstValuesRef points, Components components);
+
 /// Scales each closed component about its weighted centroid (MeshSeries::weight) to its former volume. Components with
 /// a corner or a kept vertex are not scaled, nor are those that lost more than half of their volume or turned inside
 /// out. Returns how many were scaled.

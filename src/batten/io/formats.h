@@ -27,6 +27,10 @@ void write_stl(OutputFile& file, const Mesh& mesh, Encoding encoding);
 void write_xyz(OutputFile& file, const Mesh& mesh);
 /// In builds with tinygltf (BATTEN_WITH_GLTF) only. targets: null, or targets that write_animation has checked.
 void write_glb(OutputFile& file, const Mesh& mesh, UpAxis up, const MorphTargets* targets = nullptr);
+/// True for numbers at vertices that glTF has no name for, and not more than four a vertex.
+bool is_glb_own(const Attribute& attribute);
+/// The name that glTF lets a program choose: "mean_curvature" is _MEAN_CURVATURE.
+std::string glb_own_name(const std::string& name);
 void write_usda(OutputFile& file, const Mesh& mesh, UpAxis up);
 /// True for polygons that USDA holds as they are: a mesh with normals and without any choice about a subdivision
 /// surface, and a mesh of the Butterflies, which USD does not know.

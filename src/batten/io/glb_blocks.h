@@ -33,7 +33,7 @@ class GlbBlocks {
   int add_floats(std::ptrdiff_t count, const RowOf& row_of) {
     tinygltf::Accessor accessor;
     accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
-    accessor.type = K;  // TINYGLTF_TYPE_VEC2 is 2, and so on
+    accessor.type = K == 1 ? TINYGLTF_TYPE_SCALAR : K;  // TINYGLTF_TYPE_VEC2 is 2, and so on
     accessor.count = static_cast<std::size_t>(count);
     unsigned char* target = add_block(accessor.count * K * sizeof(float), TINYGLTF_TARGET_ARRAY_BUFFER, accessor);
     parallel_for(count, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {

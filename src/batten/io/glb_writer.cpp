@@ -97,8 +97,8 @@ class SurfaceModel {
   bool short_indices() const { return vertex_count() <= 65535; }
 
   std::size_t byte_count() const {
-    const std::ptrdiff_t floats =
-        6 + (uv_.attribute != nullptr ? 2 : 0) + (color_.attribute != nullptr ? color_.attribute->values.cols() : 0);
+    const std::ptrdiff_t floats = 6 + (uv_.attribute != nullptr ? 2 : 0) +
+                                  (color_.attribute != nullptr ? color_.attribute->values.cols() : 0) + own_columns();
     const std::size_t triangles = mesh_.face_vertices.size() - 2 * static_cast<std::size_t>(mesh_.face_count());
     std::size_t moving = 0;
     if (morph_ != nullptr) {
@@ -107,6 +107,34 @@ class SurfaceModel {
     }
     return (static_cast<std::size_t>(floats * vertex_count()) + moving) * sizeof(float) +
            triangles * 3 * (short_indices() ? sizeof(std::uint16_t) : sizeof(std::uint32_t));
+  }
+
+  std::ptrdiff_t own_columns() const {
+    std::ptrdiff_t columns = 0;
+    for (const Attribute& attribute : mesh_.attributes) {
+      if (is_glb_own(attribute)) columns += attribute.values.cols();
+    }
+    return columns;
+  }
+
+  template <int K>
+  int add_own(GlbBlocks& blocks, const Attribute& attribute) const {
+    return blocks.add_floats<K>(vertex_count(), [&](std::ptrdiff_t i) {
+      const Index vertex = mesh_.face_vertices[corners_.corner_of_vertex[i]];
+      return Eigen::Matrix<double, 1, K>(attribute.values.row(vertex));
+    });
+  }
+
+  /// Numbers that glTF has no name for, under names of their own.
+  void add_own(GlbBlocks& blocks, std::map<std::string, int>& attributes) const {
+    for (const Attribute& attribute : mesh_.attributes) {
+      if (!is_glb_own(attribute)) continue;
+      const Eigen::Index columns = attribute.values.cols();
+      attributes[glb_own_name(attribute.name)] = columns == 1   ? add_own<1>(blocks, attribute)
+                                                 : columns == 2 ? add_own<2>(blocks, attribute)
+                                                 : columns == 3 ? add_own<3>(blocks, attribute)
+                                                                : add_own<4>(blocks, attribute);
+    }
   }
 
   /// `otherwise` is the value at corners without a row.
@@ -147,6 +175,7 @@ class SurfaceModel {
       attributes["COLOR_0"] =
           blocks.add_floats<3>(vertex_count(), [&](std::ptrdiff_t i) { return linear_color<3>(corner(i)); });
     }
+    add_own(blocks, attributes);
     return attributes;
   }
 

@@ -109,6 +109,7 @@ class Losses {
     const bool is_color = attribute.name == "color";
     Kept kept = is_normal ? place_.normals : is_uv ? place_.uvs : is_color ? place_.colors : place_.others;
     if (is("usda") && is_normal && !io::is_usda_polygonal(mesh_)) kept = Kept::Nowhere;
+    if (is("glb") && io::is_glb_own(attribute)) return;
     if (kept == Kept::Anywhere || (kept == Kept::Vertices && !attribute.per_corner())) return;
     const std::string what = is_normal  ? "normals"
                              : is_uv    ? "texture coordinates"

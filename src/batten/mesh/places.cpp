@@ -4,8 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <unordered_map>
 #include <vector>
+
+#include "batten/parallel/parallel.h"
 
 namespace batten {
 
@@ -87,23 +90,59 @@ Buffer<Index> place_numbers(const Points& points, const Buffer<Index>& rows, dou
   return tolerance > 1e-16 * largest ? near_places(points, rows, tolerance) : equal_places(points, rows);
 }
 
+namespace {
+
+/// Rows by the hash of their point, so that equal points are in one part, and the parts are small enough for a cache.
+struct HashParts {
+  Buffer<std::uint64_t> hashes;  ///< of row i
+  Buffer<Index> rows;            ///< part after part, each in ascending order
+  std::vector<Index> starts;
+};
+
+HashParts part_by_hash(const Points& points, const Buffer<Index>& rows) {
+  constexpr std::size_t kPartBits = 8;
+  constexpr std::size_t kWorthParts = 1U << 15U;
+  const std::size_t bits = rows.size() < kWorthParts ? 0 : kPartBits;
+  HashParts parts{Buffer<std::uint64_t>(rows.size()), Buffer<Index>(rows.size()), {}};
+  parallel_for(static_cast<std::ptrdiff_t>(rows.size()), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (std::ptrdiff_t i = begin; i < end; ++i) parts.hashes[i] = coordinate_hash(points.row(rows[i]));
+  });
+  // Tables take the low bits of a hash.
+  const auto part_of = [&](std::size_t i) { return parts.hashes[i] >> 32U & ((std::size_t{1} << bits) - 1); };
+  parts.starts.assign((std::size_t{1} << bits) + 1, 0);
+  for (std::size_t i = 0; i < rows.size(); ++i) ++parts.starts[part_of(i) + 1];
+  std::partial_sum(parts.starts.begin(), parts.starts.end(), parts.starts.begin());
+  std::vector<Index> next(parts.starts.begin(), parts.starts.end() - 1);
+  for (std::size_t i = 0; i < rows.size(); ++i) parts.rows[next[part_of(i)]++] = static_cast<Index>(i);
+  return parts;
+}
+
+}  // namespace
+
 Buffer<Index> first_equal(const Points& points, const Buffer<Index>& rows) {
-  std::size_t size = 2;
-  while (size < 2 * rows.size()) size *= 2;
-  Buffer<Index> table(size, -1);
+  const HashParts parts = part_by_hash(points, rows);
   Buffer<Index> first(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Eigen::RowVector3d point = points.row(rows[i]);
-    std::size_t slot = coordinate_hash(point) & (size - 1);
-    while (table[slot] >= 0 && points.row(rows[table[slot]]) != point) slot = (slot + 1) & (size - 1);
-    if (table[slot] < 0) table[slot] = static_cast<Index>(i);
-    first[i] = table[slot];
-  }
+  parallel_for_each(static_cast<std::ptrdiff_t>(parts.starts.size()) - 1, [&](std::ptrdiff_t part) {
+    const Index begin = parts.starts[part];
+    const Index end = parts.starts[part + 1];
+    std::size_t size = 2;
+    while (size < 2 * static_cast<std::size_t>(end - begin)) size *= 2;
+    Buffer<Index> table(size, -1);
+    for (Index k = begin; k < end; ++k) {
+      const Index i = parts.rows[k];
+      const Eigen::RowVector3d point = points.row(rows[i]);
+      std::size_t slot = parts.hashes[i] & (size - 1);
+      while (table[slot] >= 0 && points.row(rows[table[slot]]) != point) slot = (slot + 1) & (size - 1);
+      if (table[slot] < 0) table[slot] = i;
+      first[i] = table[slot];
+    }
+  });
   return first;
 }
 
 Index coincident_count(const Points& points) {
   Buffer<Index> rows;
+  rows.reserve(static_cast<std::size_t>(points.rows()));
   for (Index v = 0; v < points.rows(); ++v) {
     if (points.row(v).allFinite()) rows.push_back(v);
   }

@@ -40,4 +40,7 @@ struct MeshSummary {
 /// O(H).
 MeshSummary summarize(const Topology& topology);
 
+/// The same where the components are known: connected_components(topology).
+MeshSummary summarize(const Topology& topology, const Components& components);
+
 }  // namespace batten

@@ -13,6 +13,13 @@ using namespace render_detail;
 
 constexpr int kStripes = 256;  // each of one colour
 
+/// "2 % up to 31.4": what lies beyond an end.
+std::string beyond_text(double share, const char* words, double extreme) {
+  const double percent = 100.0 * share;
+  const std::string amount = percent < 0.1 ? "< 0.1" : number_text(percent, percent < 1.0 ? 1 : 2);
+  return amount + " % " + words + " " + number_text(extreme);
+}
+
 struct Words {
   std::string text;
   Spot at;
@@ -36,8 +43,10 @@ class BarLayout {
       tick_heights_.push_back(y);
       add({tick.text, {kBar * unit_ + 20 * unit_, y + 9.5 * unit_}, {26 * unit_, ink_}});
     }
-    if (reaches_above()) add({"max " + number_text(scale.highest), {0.0, top_ - 46 * unit_}, {24 * unit_, soft()}});
-    if (reaches_below()) add({"min " + number_text(scale.lowest), {0.0, bottom_ + 64 * unit_}, {24 * unit_, soft()}});
+    if (reaches_above())
+      add({beyond_text(scale.share_above, "up to", scale.highest), {0.0, top_ - 46 * unit_}, {24 * unit_, soft()}});
+    if (reaches_below())
+      add({beyond_text(scale.share_below, "down to", scale.lowest), {0.0, bottom_ + 64 * unit_}, {24 * unit_, soft()}});
   }
 
   int width() const { return static_cast<int>(std::ceil(right_ + 2 * kEdge * unit_)); }

@@ -1,11 +1,13 @@
 #include "batten/render/color_scale.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "batten/error.h"
+#include "batten/quantile.h"
 #include "batten/render/srgb.h"
 
 namespace batten {
@@ -32,13 +34,6 @@ Color between(const unsigned char (&table)[N][3], double position) {
     color[c] = render_detail::decode_srgb(mixed / 255.0F);
   }
   return color;
-}
-
-/// The number below which this share of the numbers lies.
-double quantile(std::vector<double>& values, double share) {
-  const auto place = static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(values.size() - 1)));
-  std::nth_element(values.begin(), values.begin() + place, values.end());
-  return values[static_cast<std::size_t>(place)];
 }
 
 void fit_log(std::vector<double>& values, double outliers, ColorScale& scale) {
@@ -70,6 +65,48 @@ void fit_diverging(double middle, ColorScale& scale) {
   }
 }
 
+/// The least and the greatest of the numbers, but for the outliers; all of them where nothing else differs.
+std::array<double, 2> linear_range(std::vector<double>& values, const ScaleRequest& request, const ColorScale& all) {
+  const std::array<double, 2> most{quantile(values, request.outliers), quantile(values, 1.0 - request.outliers)};
+  const double size = std::max(std::abs(all.lowest), std::abs(all.highest));
+  const bool equal = !(most[1] - most[0] > 1e-9 * size);
+  return equal && !request.whole ? std::array<double, 2>{all.lowest, all.highest} : most;
+}
+
+void fit_linear(std::vector<double>& values, const ScaleRequest& request, ColorScale& scale) {
+  const std::array<double, 2> range = linear_range(values, request, scale);
+  scale.low = range[0];
+  scale.high = range[1];
+  if (request.map != ColorMap::Diverging && scale.lowest >= 0.0 && scale.low < 0.3 * scale.high) scale.low = 0.0;
+  if (request.map == ColorMap::Diverging) fit_diverging(request.middle, scale);
+  // The bar must have a length. Differences due to rounding do not count.
+  const double size = std::max({std::abs(scale.low), std::abs(scale.high), std::numeric_limits<double>::min()});
+  if (scale.high - scale.low > 1e-9 * size) return;
+  const double reach = request.whole || scale.high == 0.0 ? 1.0 : 0.5 * std::abs(scale.high);
+  const double centre = scale.high;
+  const bool both_sides = scale.map == ColorMap::Diverging;
+  scale.low = !both_sides && centre >= 0.0 ? std::max(0.0, centre - reach) : centre - reach;
+  scale.high = centre + reach;
+}
+
+/// Numbers are counted as beyond an end by more than rounding only.
+void count_beyond(const std::vector<double>& values, ColorScale& scale) {
+  const double slack = 1e-9 * (scale.high - scale.low);
+  std::ptrdiff_t below = 0;
+  std::ptrdiff_t above = 0;
+  for (const double value : values) {
+    below += value < scale.low - slack ? 1 : 0;
+    above += value > scale.high + slack ? 1 : 0;
+  }
+  scale.share_below = static_cast<double>(below) / static_cast<double>(values.size());
+  scale.share_above = static_cast<double>(above) / static_cast<double>(values.size());
+}
+
+void require_range(const std::array<double, 2>& range) {
+  const bool ascends = std::isfinite(range[0]) && std::isfinite(range[1]) && range[0] < range[1];
+  if (!ascends) throw Error(ErrorCode::BadArgument, "a range of colours needs two finite numbers, the smaller first");
+}
+
 }  // namespace
 
 Color map_color(ColorMap map, double position) {
@@ -88,6 +125,7 @@ double ColorScale::position(double value) const {
 ColorScale fit_color_scale(const Eigen::Ref<const Scalars>& values, const ScaleRequest& request) {
   if (!(request.outliers >= 0.0 && request.outliers <= 0.4))
     throw Error(ErrorCode::BadArgument, "the share of outliers must be 0 to 0.4");
+  if (request.range) require_range(*request.range);
   ColorScale scale;
   scale.map = request.map;
   scale.title = request.title;
@@ -100,24 +138,20 @@ ColorScale fit_color_scale(const Eigen::Ref<const Scalars>& values, const ScaleR
   if (finite.empty()) finite.push_back(request.middle);
   scale.lowest = *std::min_element(finite.begin(), finite.end());
   scale.highest = *std::max_element(finite.begin(), finite.end());
-  if (request.map != ColorMap::Diverging && request.log && scale.highest > 0.0) {
-    scale.log = true;
-    fit_log(finite, request.outliers, scale);
-    return scale;
+  scale.log = request.map != ColorMap::Diverging && request.log && scale.highest > 0.0;
+  if (request.range) {
+    scale.low = (*request.range)[0];
+    scale.high = (*request.range)[1];
+    scale.log = scale.log && scale.low > 0.0;
+    if (request.map == ColorMap::Diverging && scale.low >= request.middle) scale.map = ColorMap::Warm;
+    if (request.map == ColorMap::Diverging && scale.high <= request.middle) scale.map = ColorMap::Cool;
+  } else if (scale.log) {
+    std::vector<double> positive = finite;
+    fit_log(positive, request.outliers, scale);
+  } else {
+    fit_linear(finite, request, scale);
   }
-  scale.low = quantile(finite, request.outliers);
-  scale.high = quantile(finite, 1.0 - request.outliers);
-  if (request.map != ColorMap::Diverging && scale.lowest >= 0.0 && scale.low < 0.3 * scale.high) scale.low = 0.0;
-  if (request.map == ColorMap::Diverging) fit_diverging(request.middle, scale);
-  // The bar must have a length. Differences due to rounding do not count.
-  const bool both_sides = scale.map == ColorMap::Diverging;
-  const double size = std::max({std::abs(scale.low), std::abs(scale.high), std::numeric_limits<double>::min()});
-  if (!(scale.high - scale.low > 1e-9 * size)) {
-    const double reach = request.whole || scale.high == 0.0 ? 1.0 : 0.5 * std::abs(scale.high);
-    const double centre = scale.high;
-    scale.low = !both_sides && centre >= 0.0 ? std::max(0.0, centre - reach) : centre - reach;
-    scale.high = centre + reach;
-  }
+  count_beyond(finite, scale);
   return scale;
 }
 
