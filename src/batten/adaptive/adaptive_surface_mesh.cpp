@@ -63,12 +63,12 @@ Values values_at(const PointsAt& points_at, const std::vector<SurfacePlace>& pla
 }
 
 /// Where a corner of the result lies in its base face.
-struct Spot {
+struct BoundaryPlace {
   Index corner = -1;  ///< the half-edge that starts here
   Index side = -1;    ///< or the half-edge that it lies inside
 };
 
-Spot spot_of(const Topology& base, Index face, const std::array<double, 2>& at) {
+BoundaryPlace boundary_place(const Topology& base, Index face, const std::array<double, 2>& at) {
   const auto [u, v] = at;
   const Index size = base.face_size(face);
   const bool quad = size == 4;
@@ -121,10 +121,10 @@ class CarriedCorners {
   /// an edge one a side.
   Index row_of(std::size_t corner, Index face) {
     if (!has_rows(face)) return -1;
-    const Spot spot = spot_of(base_, face, result_.corner_parameters[corner]);
-    if (spot.corner >= 0) return attribute_.corner_rows[spot.corner];
+    const BoundaryPlace place = boundary_place(base_, face, result_.corner_parameters[corner]);
+    if (place.corner >= 0) return attribute_.corner_rows[place.corner];
     const bool upper =
-        spot.side >= 0 && base_.twin(spot.side) >= 0 && base_.twin(spot.side) < spot.side && !is_twins(spot.side);
+        place.side >= 0 && base_.twin(place.side) >= 0 && base_.twin(place.side) < place.side && !is_twins(place.side);
     Index& row = at_vertex_[result_.mesh.face_vertices[corner]][upper ? 1 : 0];
     if (row < 0) {
       row = static_cast<Index>(attribute_.values.rows() + static_cast<Eigen::Index>(new_rows_.size()));

@@ -128,7 +128,7 @@ class Meter {
 };
 
 /// So many faces at a time: jets are large.
-constexpr Index kChunk = 1 << 12;
+constexpr Index kFacesAtOnce = 1 << 12;
 
 }  // namespace
 
@@ -140,9 +140,9 @@ double measured_chord(const LimitSurface& surface, const AdaptiveMesh& mesh, con
   std::vector<Jet> jets;
   Buffer<std::size_t> starts;
   double worst = 0.0;
-  for (Index first = 0; first < mesh.mesh.face_count(); first += kChunk) {
+  for (Index first = 0; first < mesh.mesh.face_count(); first += kFacesAtOnce) {
     report_progress(progress, static_cast<double>(first) / mesh.mesh.face_count());
-    const Index count = std::min(kChunk, mesh.mesh.face_count() - first);
+    const Index count = std::min(kFacesAtOnce, mesh.mesh.face_count() - first);
     places.clear();
     starts.clear();
     for (Index f = first; f < first + count; ++f) {
