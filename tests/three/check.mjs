@@ -51,6 +51,13 @@ function assertSameBounds(ours, theirs, used) {
 
 const usedPoints = ({ points, faces }) => faces.flat().map((v) => points.slice(3 * v, 3 * v + 3));
 
+/// The points as they stand where y is up: in GLB files always, and three.js turns USD stages so.
+const upright = (obj, axis) => ({
+  ...obj,
+  points: axis === 'Z' ? obj.points.map((x, i) => (i % 3 === 0 ? x : i % 3 === 1 ? obj.points[i + 1] : -obj.points[i - 1])) : obj.points,
+});
+const upAxis = (path) => /upAxis = "([YZ])"/.exec(readFileSync(path, 'utf8'))[1];
+
 function checkUsda(path, obj) {
   const text = readFileSync(path, 'utf8');
   const specs = new USDAParser().parseData(text).specsByPath;
@@ -71,7 +78,7 @@ function checkUsda(path, obj) {
   assert.deepEqual(edges.sort(), obj.creases.map(([a, b, sharpness]) => key(a, b, Math.min(sharpness, 10))).sort());
   const drawn = trianglePoints(theMesh(new USDLoader().parse(text)));
   assert.equal(drawn.length, 3 * triangleCount(obj.faces));
-  assertSameBounds(bounds(usedPoints(obj)), bounds(drawn.map((p) => p.toArray())));
+  assertSameBounds(bounds(usedPoints(upright(obj, upAxis(path)))), bounds(drawn.map((p) => p.toArray())));
 }
 
 async function checkGlb(path, obj) {
@@ -88,7 +95,7 @@ async function checkGlb(path, obj) {
 }
 
 /// Played to a time, the vertices and normals are those of the surface at that time.
-async function checkMorph(folder, times) {
+async function checkMorph(folder, times, axis) {
   const bytes = readFileSync(`${folder}/morph.glb`);
   const gltf = await new GLTFLoader().parseAsync(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length), '');
   const mesh = theMesh(gltf.scene);
@@ -100,7 +107,7 @@ async function checkMorph(folder, times) {
   action.setLoop(2200, 1);  // LoopOnce
   for (const time of times) {
     mixer.setTime(2 * time);
-    const obj = readObj(`${folder}/morph-${time}.obj`);
+    const obj = upright(readObj(`${folder}/morph-${time}.obj`), axis);
     const theirs = usedPoints(obj);
     const index = mesh.geometry.index;
     const corners = obj.faces.flatMap((f) => f.slice(2).flatMap((v, i) => [f[0], f[i + 1], v]));
@@ -122,7 +129,7 @@ async function checkMorph(folder, times) {
 const [folder, ...names] = process.argv.slice(2);
 for (const name of names) {
   checkUsda(`${folder}/${name}.usda`, readObj(`${folder}/${name}.obj`));
-  await checkGlb(`${folder}/${name}.glb`, readObj(`${folder}/${name}-surface.obj`));
+  await checkGlb(`${folder}/${name}.glb`, upright(readObj(`${folder}/${name}-surface.obj`), upAxis(`${folder}/${name}.usda`)));
   console.log(`${name}: three.js reads the control mesh from USDA and the surface from GLB`);
 }
-await checkMorph(folder, [0, 0.5, 0.75, 1]);
+await checkMorph(folder, [0, 0.5, 0.75, 1], upAxis(`${folder}/creature.usda`));
