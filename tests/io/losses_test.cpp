@@ -40,8 +40,7 @@ TEST(Losses, EveryFormatNamesWhatItDoesNotKeep) {
     return all;
   };
   EXPECT_EQ(find_losses("m.obj", mesh), Words{"attribute 'weight'"});
-  EXPECT_EQ(find_losses("m.ply", mesh),
-            with_tags({}, {"groups", "materials", "smoothing groups"}));
+  EXPECT_EQ(find_losses("m.ply", mesh), with_tags({}, {"groups", "materials", "smoothing groups"}));
   const Words values = {"texture coordinates", "normals",         "colours", "attribute 'weight'", "groups",
                         "materials",           "smoothing groups"};
   EXPECT_EQ(find_losses("m.off", mesh), with_tags({}, values));

@@ -20,8 +20,9 @@ Picture beside(const std::vector<Panel>& panels, const PictureStyle& style = {})
 /// The height that captions below pictures take: 0 unless the style has a text size.
 int caption_height(const PictureStyle& style);
 
-/// Puts so many panels into each row, the last row centred; caption_height is added to a row with captions. A caption wider than its picture is made smaller. Throws
-/// what `beside` throws, and Error(BadArgument) for less than one column.
+/// Puts so many panels into each row, the last row centred; caption_height is added to a row with captions. A caption
+/// wider than its picture is made smaller. Throws what `beside` throws, and Error(BadArgument) for less than one
+/// column.
 Picture in_rows(const std::vector<Panel>& panels, int columns, const PictureStyle& style = {});
 
 }  // namespace batten

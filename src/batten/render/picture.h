@@ -21,8 +21,8 @@ struct Picture {
 struct PictureStyle {
   Color background{0.96F, 0.96F, 0.95F};
   bool transparent = false;  ///< no background but alpha in the picture; text is still chosen for `background`
-  /// Of captions, which then stand below their pictures, and of colour bars, in pixels. 0: 1/34 of the picture's height,
-  /// with captions over its foot.
+  /// Of captions, which then stand below their pictures, and of colour bars, in pixels. 0: 1/34 of the picture's
+  /// height, with captions over its foot.
   double text_size = 0.0;
 };
 
