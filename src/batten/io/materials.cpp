@@ -41,8 +41,8 @@ void read_library(const std::string& path, Materials& materials) {
 }  // namespace
 
 bool is_image_name(const std::string& name) {
-  static const std::set<std::string> kExtensions = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".tga", ".webp"};
-  return kExtensions.count(lower_extension(name)) > 0;
+  static const std::set<std::string> extensions = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".tga", ".webp"};
+  return extensions.count(lower_extension(name)) > 0;
 }
 
 bool is_gltf_library(const std::string& library) {

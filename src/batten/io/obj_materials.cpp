@@ -30,12 +30,12 @@ bool read_number(std::string_view word, double& value) {
 
 /// The file name after the options of a map, such as `-s 2 2 1 -clamp on wood.png`. It may hold blanks.
 std::string_view map_file(std::string_view text) {
-  static const std::map<std::string_view, int> kNumbers = {{"-o", 3}, {"-s", 3}, {"-t", 3}, {"-mm", 2}};
+  static const std::map<std::string_view, int> number_counts = {{"-o", 3}, {"-s", 3}, {"-t", 3}, {"-mm", 2}};
   while (!text.empty() && text.front() == '-') {
     std::string_view rest = text;
     const std::string_view option = take_word(rest);
-    const auto numbers = kNumbers.find(option);
-    if (numbers == kNumbers.end()) {
+    const auto numbers = number_counts.find(option);
+    if (numbers == number_counts.end()) {
       take_word(rest);
     } else {
       for (int i = 0; i < numbers->second; ++i) {
