@@ -40,14 +40,14 @@ void solve_tridiagonal(const Buffer<double>& inverse, Values& y) {
 
 }  // namespace
 
-CreaseCurves find_crease_curves(const LimitMatrix& matrix) {
-  CreaseCurves result;
+CurveSystems find_crease_curves(const LimitMatrix& matrix) {
+  CurveSystems result;
   const Index count = matrix.topology().vertex_count();
   Buffer<std::uint8_t> seen(static_cast<std::size_t>(count), 0);
   for (Index v = 0; v < count; ++v) {
     if (matrix.row_kind(v) != LimitRow::Curve || seen[v] != 0) continue;
     seen[v] = 1;
-    CreaseCurve curve;
+    CurveSystem curve;
     const std::pair<Index, Index> ends = matrix.curve_neighbours(v);
     Buffer<Index> backward;
     curve.before = follow(matrix, v, v, ends.first, seen, backward);
@@ -67,7 +67,7 @@ CreaseCurves find_crease_curves(const LimitMatrix& matrix) {
   return result;
 }
 
-void solve_curve(const CreaseCurve& curve, ValuesRef x) {
+void solve_curve(const CurveSystem& curve, ValuesRef x) {
   const auto count = static_cast<std::ptrdiff_t>(curve.vertices.size());
   Values y(count, x.cols());
   for (std::ptrdiff_t i = 0; i < count; ++i) y.row(i) = 6.0 * x.row(curve.vertices[i]);

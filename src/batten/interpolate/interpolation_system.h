@@ -66,7 +66,7 @@ class InterpolationSystem {
   Scheme scheme_;
   InterpolateOptions options_;
   LimitMatrix matrix_;
-  CreaseCurves curves_;
+  CurveSystems curves_;
   std::vector<SingularComponent> singular_;
   std::unique_ptr<FreeBlock> block_;
   std::unique_ptr<TiledIteration> tiles_;
