@@ -43,6 +43,15 @@ TEST(OffReader, TheColoursOfFacesAreSkippedAndTold) {
   EXPECT_TRUE(notes_of(io::read_off, vertices + "3 0 1 2\n3 0 1 2 # red\n3 0 1 2\n").empty());
 }
 
+TEST(OffReader, ANumberSignInsideAWordBeginsNoComment) {
+  // A backslash continues the line, so that the 9 is one more word of the first face, wherever the text is cut.
+  const std::string text = "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 7#8\\\n9\n3 2 1 0\n";
+  for (const std::size_t chunk_bytes : {std::size_t{1}, io::kChunkBytes}) {
+    const Mesh mesh = io::read_off({"test", text, chunk_bytes});
+    EXPECT_EQ(mesh.face_vertices, (Buffer<Index>{0, 1, 2, 2, 1, 0}));
+  }
+}
+
 TEST(OffReader, ErrorsNameTheLine) {
   const auto expect = [](const std::string& text, ErrorCode code, const std::string& part) {
     expect_read_error(io::read_off, text, code, part);

@@ -29,8 +29,15 @@ std::string Scanner::rest_of_line() {
   return text;
 }
 
+bool Scanner::has_comment(const char* begin, const char* end) const {
+  for (const char* at = begin; (at = std::find(at, end, '#')) != end; ++at) {
+    if (at == begin || is_blank(at[-1])) return true;
+  }
+  return false;
+}
+
 void Scanner::skip_line() {
-  bool comment = here_ != end_ && *here_ == '#';
+  const bool comment = here_ != end_ && *here_ == '#';
   while (here_ != end_) {
     const char* begin = here_;
     const void* found = std::memchr(here_, '\n', static_cast<std::size_t>(end_ - here_));
@@ -41,10 +48,7 @@ void Scanner::skip_line() {
     here_ = static_cast<const char*>(found) + 1;
     const char* last = here_ - 1;
     if (last != begin && last[-1] == '\r') --last;
-    if (comment || last == begin || last[-1] != '\\') return;
-    // A comment may start anywhere in a line that ends in a backslash.
-    comment = std::find(begin, last, '#') != last;
-    if (comment) return;
+    if (comment || last == begin || last[-1] != '\\' || has_comment(begin, last)) return;
   }
 }
 

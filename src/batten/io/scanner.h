@@ -128,6 +128,8 @@ class Scanner {
   bool ends_token(const char* at) const {
     return at == end_ || is_blank(*at) || *at == '\n' || (*at == '\\' && continues_line(at));
   }
+  /// True if a token of [begin, end), which begins a token or a line, starts with '#'.
+  bool has_comment(const char* begin, const char* end) const;
   bool continues_line(const char* backslash) const {
     const char* next = backslash + 1;
     if (next != end_ && *next == '\r') ++next;
