@@ -17,6 +17,7 @@
 #include "batten/limit/limit_matrix.h"
 #include "batten/mesh/check.h"
 #include "batten/mesh/discrete_curvature.h"
+#include "batten/mesh/measures.h"
 #include "batten/mesh/primitives.h"
 #include "batten/mesh/repair.h"
 #include "batten/mesh/triangulate.h"
@@ -27,6 +28,7 @@
 #include "batten/tessellate/surface_mesh.h"
 #include "batten/tessellate/tessellator.h"
 #include "io/io_test_tools.h"
+#include "support/shapes.h"
 
 namespace batten {
 namespace {
@@ -37,6 +39,22 @@ struct Named {
   const char* name;
   Operation run;
 };
+
+/// Flat sides of 256 quads each, with noise of a sixth of an edge.
+Mesh noisy_cube() {
+  Mesh sharp = cube();
+  const Topology edges(sharp);
+  for (Index e = 0; e < edges.edge_count(); ++e) {
+    const Index h = edges.edge_half_edge(e);
+    sharp.creases.push_back({edges.origin(h), edges.destination(h), kInfiniteSharpness});
+  }
+  const RefinedSurface fine = refine(Topology(sharp), Scheme(), sharp.points, 4);
+  Mesh mesh = mesh_from_topology(fine.topology);
+  mesh.points = fine.values;
+  mesh.creases.clear();
+  mesh.corners.clear();
+  return test::jittered(mesh, edge_lengths(Topology(mesh), mesh.points).mean / 6.0, 5);
+}
 
 /// The operations, each on a mesh large enough for several blocks.
 std::vector<Named> operations(const io_tests::TemporaryFolder& folder) {
@@ -118,6 +136,15 @@ std::vector<Named> operations(const io_tests::TemporaryFolder& folder) {
          options.features = true;
          options.matrix = SeriesMatrix::Cotangent;
          denoise(mesh, scheme, options, progress);
+       }},
+      {"denoise with edges in noise",
+       [](const Progress& progress) {
+         static const Mesh noisy = noisy_cube();
+         DenoiseOptions options;
+         options.automatic = true;
+         options.features = true;
+         const DenoiseResult result = denoise(noisy, scheme, options, progress);
+         EXPECT_GT(result.features.size() + static_cast<std::size_t>(result.features_left_out), 0U);
        }},
       {"sharpen", [](const Progress& progress) { sharpen(topology, scheme, mesh.points, {}, progress); }},
       {"bands",

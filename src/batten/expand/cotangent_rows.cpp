@@ -6,6 +6,7 @@
 #include "batten/error.h"
 #include "batten/mesh/face_triangles.h"
 #include "batten/parallel/parallel.h"
+#include "batten/quantile.h"
 
 namespace batten {
 
@@ -151,10 +152,7 @@ double median_ratio(const Buffer<RowMeasure>& measures) {
   for (const RowMeasure& measure : measures) {
     if (measure.scaled && measure.area > 0.0) ratios.push_back(measure.absolute_sum / measure.area);
   }
-  if (ratios.empty()) return 0.0;
-  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-  std::nth_element(ratios.begin(), middle, ratios.end());
-  return *middle;
+  return ratios.empty() ? 0.0 : quantile(ratios, 0.5);
 }
 
 /// Where each block's entries stand among those of all.

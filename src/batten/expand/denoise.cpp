@@ -90,11 +90,12 @@ Topology smooth_along(const Topology& given, const Scheme& scheme, ConstValuesRe
   settle_corners(given, creased, points, *work, progress_within(progress, 0.5, 0.6));
   if (!options.automatic || given.vertex_count() < kFewestForNoise) return creased;
   Smoothing plain = smooth(given, scheme, points, options, progress_within(progress, 0.6, 0.9));
-  const auto error_of = [&](const Smoothing& one) {
+  const auto error_of = [&](const Smoothing& one, double begin, double end) {
     return expected_error(one.series, points, plain.normals, plain.noise.deviation, one.choice,
-                          progress_within(progress, 0.9, 1.0));
+                          progress_within(progress, begin, end));
   };
-  if (error_of(*work) <= kClearGain * error_of(plain)) return creased;
+  const double error_along = error_of(*work, 0.9, 0.95);
+  if (error_along <= kClearGain * error_of(plain, 0.95, 1.0)) return creased;
   result.features_left_out = static_cast<Index>(result.features.size());
   result.features.clear();
   work.emplace(std::move(plain));

@@ -87,14 +87,6 @@ std::vector<Crease> connected_creases(const Topology& topology, const std::vecto
   return creases;
 }
 
-/// The same at every run: a bit of the vertex's number, well mixed.
-double random_sign(Index vertex) {
-  std::uint64_t bits = (static_cast<std::uint64_t>(vertex) + 1) * 0x9e3779b97f4a7c15U;
-  bits = (bits ^ bits >> 30U) * 0xbf58476d1ce4e5b9U;
-  bits = (bits ^ bits >> 27U) * 0x94d049bb133111ebU;
-  return (bits >> 63U) != 0 ? 1.0 : -1.0;
-}
-
 /// Noise of so many mean edges does not mislead the comparison of smoothed normals.
 constexpr double kHarmless = 0.1;
 
@@ -117,12 +109,11 @@ QuietPoints quiet_points(const Topology& topology, ConstValuesRef points, const 
   const double noise = estimate_noise(series, points, normals, progress_within(progress, 0.4, 0.6)).deviation;
   const double edge = edge_lengths(topology, points).mean;
   if (!(noise > kNoisy * edge)) return {points};
-  Values now(points.rows(), 4);
-  now.leftCols(3) = points;
-  for (Index v = 0; v < topology.vertex_count(); ++v) now(v, 3) = random_sign(v);
+  Values now = with_random_signs(points);
+  const auto done = [&](int passes) { return 0.6 + 0.4 * passes / *std::rbegin(kStops); };
   int passes = 0;
   for (const int stop : kStops) {
-    now = series.smooth(now, kSharpness, stop - passes, progress_within(progress, 0.6, 1.0));
+    now = series.smooth(now, kSharpness, stop - passes, progress_within(progress, done(passes), done(stop)));
     passes = stop;
     // The last column is what is left of noise of deviation 1.
     if (noise * std::sqrt(now.col(3).squaredNorm() / static_cast<double>(now.rows())) <= kHarmless * edge) break;

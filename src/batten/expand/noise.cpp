@@ -7,6 +7,7 @@
 
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
+#include "batten/quantile.h"
 
 namespace batten {
 
@@ -38,12 +39,6 @@ Values normal_numbers(Index rows, Index columns) {
   return values;
 }
 
-double median(Buffer<double>& numbers) {
-  const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
-  std::nth_element(numbers.begin(), middle, numbers.end());
-  return *middle;
-}
-
 double along_normal(ConstValuesRef vectors, ConstValuesRef normals, Eigen::Index v) {
   return vectors(v, 0) * normals(v, 0) + vectors(v, 1) * normals(v, 1) + vectors(v, 2) * normals(v, 2);
 }
@@ -56,15 +51,6 @@ struct Removed {
 };
 
 enum class Where { Measured, Everywhere };
-
-/// The points and random signs, the same at every run.
-Values with_signs(ConstValuesRef points) {
-  Values start(points.rows(), 4);
-  std::mt19937_64 generator(kSeed);
-  for (Eigen::Index v = 0; v < points.rows(); ++v)
-    start.row(v) << points(v, 0), points(v, 1), points(v, 2), generator() % 2 ? 1.0 : -1.0;
-  return start;
-}
 
 /// start: the points and random signs; now: the same after smoothing.
 Removed measure(const MeshSeries& series, const Values& start, const Values& now, ConstValuesRef normals, Where where) {
@@ -103,16 +89,24 @@ NoiseEstimate estimate_noise(const MeshSeries& series, ConstValuesRef points, Co
     for (int c = 0; c < 4; ++c) expected.push_back(std::abs(unit(v, c)));
   }
   if (estimate.vertices > 0) {
-    const double of_unit = median(expected);
-    if (of_unit > 0.0) estimate.deviation = median(found) / of_unit;
+    const double of_unit = quantile(expected, 0.5);
+    if (of_unit > 0.0) estimate.deviation = quantile(found, 0.5) / of_unit;
   }
   return estimate;
+}
+
+Values with_random_signs(ConstValuesRef points) {
+  Values start(points.rows(), 4);
+  std::mt19937_64 generator(kSeed);
+  for (Eigen::Index v = 0; v < points.rows(); ++v)
+    start.row(v) << points(v, 0), points(v, 1), points(v, 2), generator() % 2 ? 1.0 : -1.0;
+  return start;
 }
 
 double expected_error(const MeshSeries& series, ConstValuesRef points, ConstValuesRef normals, double deviation,
                       const SmoothingChoice& choice, const Progress& progress) {
   require_points(series, points, normals);
-  const Values start = with_signs(points);
+  const Values start = with_random_signs(points);
   const Values now = series.smooth(start, choice.m, choice.passes, progress);
   const Removed removed = measure(series, start, now, normals, Where::Everywhere);
   const double variance = deviation * deviation;
@@ -132,7 +126,7 @@ SmoothingChoice choose_smoothing(const MeshSeries& series, ConstValuesRef points
   SmoothingChoice best;
   best.expected_error = deviation;
   if (measured == 0 || !(deviation > 0.0)) return best;
-  const Values start = with_signs(points);
+  const Values start = with_random_signs(points);
   const double variance = deviation * deviation;
   double least = variance;
   for (int m = 2; m >= 0; --m) {

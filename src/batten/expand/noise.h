@@ -33,6 +33,10 @@ struct SmoothingChoice {
 SmoothingChoice choose_smoothing(const MeshSeries& series, ConstValuesRef points, ConstValuesRef normals,
                                  double deviation, const Progress& progress = {});
 
+/// The points with a fourth column of random signs, the same at every run: after smoothing, its mean square is what is
+/// left of noise of variance 1, and its product with the signs before estimates the trace of the smoothing.
+Values with_random_signs(ConstValuesRef points);
+
 /// The root mean square, along the normals, of the error to expect of a choice, over all vertices, those on creases and
 /// corners too. Estimated as in choose_smoothing, so that smoothings of the same points under other creases can be
 /// compared. Throws as estimate_noise does.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "batten/error.h"
+#include "batten/quantile.h"
 #include "batten/render/srgb.h"
 #include "batten/render/tracer.h"
 
@@ -31,12 +32,6 @@ void check_scenes(const std::vector<const Scene*>& scenes, const RenderOptions& 
   for (const Scene* scene : scenes) check_scene(*scene);
 }
 
-float median(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// The exposure at which the median of the surface, were it white, is white in each colour; from a small picture.
 Vec measure_exposure(const Eye& eye, RenderOptions options, const Rays& rays, const Lamps& lamps, Paint paint) {
   constexpr int kSide = 200;
@@ -58,7 +53,7 @@ Vec measure_exposure(const Eye& eye, RenderOptions options, const Rays& rays, co
   }
   Vec exposure = Vec::Ones();
   for (std::size_t c = 0; c < 3 && !light[c].empty(); ++c)
-    exposure[static_cast<Eigen::Index>(c)] = std::clamp(1.0F / std::max(median(light[c]), 1e-3F), kLeast, kMost);
+    exposure[static_cast<Eigen::Index>(c)] = std::clamp(1.0F / std::max(quantile(light[c], 0.5), 1e-3F), kLeast, kMost);
   return exposure;
 }
 
