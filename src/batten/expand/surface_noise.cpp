@@ -7,6 +7,7 @@
 #include "batten/expand/solid_noise.h"
 #include "batten/interpolate/interpolator.h"
 #include "batten/limit/limit_matrix.h"
+#include "batten/mixed_bits.h"
 #include "batten/parallel/parallel.h"
 #include "batten/refine/refined_values.h"
 #include "batten/refine/refinement.h"
@@ -40,12 +41,9 @@ void check(const NoiseOptions& noise) {
                   std::to_string(noise.gain));
 }
 
-/// The finalizer of splitmix64, applied to the seed and the octave and folded to 32 bits.
+/// The seed and the octave, mixed and folded to 32 bits.
 std::uint32_t octave_seed(std::uint64_t seed, int octave) {
-  std::uint64_t z = seed + 0x9e3779b97f4a7c15ULL * (static_cast<std::uint64_t>(octave) + 1);
-  z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27U)) * 0x94d049bb133111ebULL;
-  z ^= z >> 31U;
+  const std::uint64_t z = mixed_bits(seed + 0x9e3779b97f4a7c15ULL * (static_cast<std::uint64_t>(octave) + 1));
   return static_cast<std::uint32_t>(z ^ (z >> 32U));
 }
 

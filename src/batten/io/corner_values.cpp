@@ -6,6 +6,8 @@
 #include <cstring>
 #include <utility>
 
+#include "batten/mixed_bits.h"
+
 namespace batten::io {
 
 bool CornerValues::equal(Index row, const double* value) const {
@@ -14,18 +16,12 @@ bool CornerValues::equal(Index row, const double* value) const {
 }
 
 std::size_t CornerValues::hash(Index vertex, const double* value) const {
-  // The finalizer of SplitMix64.
-  const auto mixed = [](std::uint64_t bits) {
-    bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9U;
-    bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebU;
-    return bits ^ (bits >> 31);
-  };
-  std::uint64_t all = mixed(static_cast<std::uint64_t>(vertex));
+  std::uint64_t all = mixed_bits(static_cast<std::uint64_t>(vertex));
   for (int k = 0; k < columns_; ++k) {
     const double unsigned_zero = value[k] + 0.0;
     std::uint64_t bits = 0;
     if (!std::isnan(unsigned_zero)) std::memcpy(&bits, &unsigned_zero, sizeof(bits));
-    all = mixed(all ^ bits);
+    all = mixed_bits(all ^ bits);
   }
   return static_cast<std::size_t>(all);
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "batten/mixed_bits.h"
+
 namespace batten {
 
 namespace {
@@ -22,13 +24,8 @@ Match compare(const Index* a, const Index* b, Index size) {
   return opposite ? Match::Reversed : Match::None;
 }
 
-/// Mixes bits, so that sums over a face's vertices differ (splitmix64).
-std::uint64_t mixed(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15U;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
-  return x ^ (x >> 31);
-}
+/// Sums of these over a face's vertices differ.
+std::uint64_t mixed(std::uint64_t x) { return mixed_bits(x + 0x9e3779b97f4a7c15U); }
 
 struct Keyed {
   std::uint64_t key;
