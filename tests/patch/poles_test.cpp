@@ -118,6 +118,7 @@ TEST(Poles, OfTooManyFacesAreErrorsAtBoundariesAndCreasesOnly) {
   const Mesh fading = creased_pole(2.0F);
   const SurfacePatches patches(Topology(fading), Scheme{SchemeKind::Loop});
   EXPECT_EQ(patches.pieces().poles().most_faces(), kMostSharpFaces + 2);
+  test::expect_error([&] { (void)patches.face_types(); }, ErrorCode::TooLarge, pole);
 }
 
 }  // namespace

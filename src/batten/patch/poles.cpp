@@ -4,7 +4,6 @@
 #include <string>
 
 #include "batten/error.h"
-#include "batten/patch/pieces.h"
 #include "batten/refine/vertex_blend.h"
 
 namespace batten {
@@ -78,14 +77,13 @@ Values Poles::with_means(const Topology& topology, const Values& values) const {
   return all;
 }
 
-void require_narrow_sharp_fans(const Topology& topology, const Scheme& scheme) {
-  // What fades before the rings of pieces begin is smooth by then.
-  constexpr float kFading = kRingPieceLevels;
+void require_narrow_sharp_fans(const Topology& topology, const Scheme& scheme, int steps) {
+  const auto fading = static_cast<float>(steps);  // sharpness falls by one a step
   const Buffer<Index> faces = face_counts(topology);
   for (Index v = 0; v < topology.vertex_count(); ++v) {
     if (faces[v] <= kMostSharpFaces) continue;
-    const bool fades = may_have_poles(topology, scheme) && vertex_sharpness(topology, scheme, v) <= kFading;
-    if (fades && smooth_face_count(topology, v, kFading) == faces[v]) continue;
+    const bool fades = may_have_poles(topology, scheme) && vertex_sharpness(topology, scheme, v) <= fading;
+    if (fades && smooth_face_count(topology, v, fading) == faces[v]) continue;
     throw Error(ErrorCode::TooLarge,
                 "vertex " + std::to_string(v) + " has " + std::to_string(faces[v]) +
                     " faces and is at a boundary or crease, or a corner: the surface around such a vertex is cut into "

@@ -57,7 +57,7 @@ class Poles {
 /// they take gigabytes and minutes.
 inline constexpr Index kMostSharpFaces = 1024;
 
-/// Throws Error(TooLarge) where more faces meet at a vertex that will be no pole. O(H).
-void require_narrow_sharp_fans(const Topology& topology, const Scheme& scheme);
+/// Throws Error(TooLarge) where more faces meet at a vertex that is still no pole after so many steps. O(H).
+void require_narrow_sharp_fans(const Topology& topology, const Scheme& scheme, int steps);
 
 }  // namespace batten

@@ -64,7 +64,7 @@ struct SurfacePatches::Parts {
 
   const Cut& cut_into_pieces() const {
     std::call_once(cut_once, [&] {
-      require_narrow_sharp_fans(base, base_scheme);
+      require_narrow_sharp_fans(base, base_scheme, kRingPieceLevels);
       cut = std::make_unique<const Cut>(base, base_scheme, scheme);
     });
     return *cut;
@@ -111,7 +111,7 @@ Index SurfacePatches::ring_type(std::int32_t shared_ring) const {
 const FaceTypes& SurfacePatches::face_types() const {
   const Parts& parts = *parts_;
   std::call_once(parts.faces_once, [&] {
-    require_narrow_sharp_fans(parts.base, parts.base_scheme);
+    require_narrow_sharp_fans(parts.base, parts.base_scheme, 0);
     parts.faces = std::make_unique<const FaceTypes>(parts.base, parts.base_scheme);
   });
   return *parts.faces;

@@ -51,14 +51,16 @@ class SurfacePatches {
   std::vector<std::pair<Index, double>> by_control(std::vector<std::pair<Index, double>> of_base) const;
 
   /// The base in pieces (patch/pieces.h), kRingPieceLevels deep. Throws Error(BadArgument) for the Butterflies,
-  /// Error(TooLarge) where more than 1,024 faces meet at a vertex of a boundary or crease, or at a corner.
+  /// Error(TooLarge) where more than 1,024 faces meet at a vertex of a boundary or crease, or at a corner, whose
+  /// sharpness is above kRingPieceLevels.
   const Pieces& pieces() const;
   /// The types of the pieces that are rings (patch/ring_types.h).
   const RingTypes& ring_types() const;
   Index ring_type(const Piece& piece) const;
   Index ring_type(std::int32_t shared_ring) const;
 
-  /// The same for whole base faces (patch/face_types.h), which have more types. Throws the same errors.
+  /// The same for whole base faces (patch/face_types.h), which have more types. Throws the same errors, the
+  /// second whatever the sharpness.
   const FaceTypes& face_types() const;
 
  private:
