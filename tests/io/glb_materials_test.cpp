@@ -1,9 +1,8 @@
 /// Base colours and images of materials in glTF, in and out.
-#include <tiny_gltf.h>
-
 #include "batten/io/glb_materials.h"
 #include "batten/io/losses.h"
 #include "batten/mesh/primitives.h"
+#include "io/glb_test_tools.h"
 #include "io/io_test_tools.h"
 
 namespace batten::io_tests {
@@ -17,15 +16,6 @@ const unsigned char kPixel[] = {
     0xbf, 0x32, 0x90, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82,
 };
 const std::string kPng(reinterpret_cast<const char*>(kPixel), sizeof(kPixel));
-
-tinygltf::Model loaded_glb(const std::string& path) {
-  tinygltf::Model model;
-  std::string error;
-  std::string warning;
-  EXPECT_TRUE(tinygltf::TinyGLTF().LoadBinaryFromFile(&model, &error, &warning, path)) << error;
-  EXPECT_EQ(error + warning, "");
-  return model;
-}
 
 /// A cube whose halves have two materials, and texture coordinates.
 Mesh painted_cube() {
@@ -75,7 +65,7 @@ TEST(GlbMaterials, ColoursAndImagesOfAMaterialFileAreWritten) {
   make_paint(folder);
   const Mesh mesh = painted_cube();
   write_mesh(folder.path("m.glb"), mesh);
-  expect_paint(loaded_glb(folder.path("m.glb")));
+  expect_paint(load_glb(folder.path("m.glb")));
   const std::vector<std::string> losses = find_losses(folder.path("m.glb"), mesh);
   EXPECT_EQ(losses,
             (std::vector<std::string>{"polygons (cut into triangles)", "materials but for colours and images"}));
@@ -90,7 +80,7 @@ TEST(GlbMaterials, ComeBackFromTheFileThatTheyWereReadFrom) {
   write_mesh(folder.path("sub/n.glb"), mesh);
   std::filesystem::remove(folder.path("paint.mtl"));
   std::filesystem::remove(folder.path("sub/wood.png"));
-  expect_paint(loaded_glb(folder.path("sub/n.glb")));
+  expect_paint(load_glb(folder.path("sub/n.glb")));
   write_mesh(folder.path("m.obj"), mesh);
   EXPECT_EQ(file_text(folder.path("m.obj")).find("mtllib"), std::string::npos);
   EXPECT_EQ(find_losses("m.obj", mesh), std::vector<std::string>{"colours and images of materials"});
@@ -113,7 +103,7 @@ TEST(GlbMaterials, AnImageOfAPlyFileIsWrittenOnce) {
   mesh.material_libraries.clear();
   mesh.groups = {{"usemtl", "a.png", 0}, {"usemtl", "b.png", 3}, {"usemtl", "./a.png", 4}};
   write_mesh(folder.path("m.glb"), mesh);
-  const tinygltf::Model model = loaded_glb(folder.path("m.glb"));
+  const tinygltf::Model model = load_glb(folder.path("m.glb"));
   ASSERT_EQ(model.materials.size(), 3U);
   EXPECT_EQ(model.images.size(), 1U);
   EXPECT_EQ(model.materials[0].pbrMetallicRoughness.baseColorTexture.index, 0);

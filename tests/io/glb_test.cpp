@@ -1,6 +1,4 @@
 /// Written GLB files, read by tinygltf.
-#include <tiny_gltf.h>
-
 #include <array>
 #include <cmath>
 #include <set>
@@ -8,6 +6,7 @@
 #include "batten/io/write_check.h"
 #include "batten/mesh/primitives.h"
 #include "batten/mesh/triangulate.h"
+#include "io/glb_test_tools.h"
 #include "io/io_test_tools.h"
 
 namespace batten::io_tests {
@@ -15,19 +14,10 @@ namespace {
 
 using Floats = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-tinygltf::Model load(const std::string& path) {
-  tinygltf::Model model;
-  std::string error;
-  std::string warning;
-  EXPECT_TRUE(tinygltf::TinyGLTF().LoadBinaryFromFile(&model, &error, &warning, path)) << error;
-  EXPECT_EQ(error + warning, "");
-  return model;
-}
-
 tinygltf::Model written(const Mesh& mesh) {
   const TemporaryFolder folder;
   write_mesh(folder.path("m.glb"), mesh);
-  return load(folder.path("m.glb"));
+  return load_glb(folder.path("m.glb"));
 }
 
 const unsigned char* bytes_of(const tinygltf::Model& model, const tinygltf::Accessor& accessor) {
@@ -163,8 +153,8 @@ TEST(GlbWriter, StandsTheModelUprightAndIsReadSo) {
   const auto row_of = [&](const Eigen::RowVector3d& point) { return (read.points.rowwise() - point).rowwise().norm(); };
   for (const Eigen::RowVector3d& p : mesh.points.rowwise())
     EXPECT_EQ(row_of({p.x(), p.z(), -p.y()}).minCoeff(), 0.0) << p;
-  const Floats normals = floats(load(folder.path("m.glb")), "NORMAL");
-  const Floats points = floats(load(folder.path("m.glb")), "POSITION");
+  const Floats normals = floats(load_glb(folder.path("m.glb")), "NORMAL");
+  const Floats points = floats(load_glb(folder.path("m.glb")), "POSITION");
   for (Eigen::Index i = 0; i < normals.rows(); ++i) {
     if (normals(i, 1) <= 0.9F) continue;
     EXPECT_EQ(points(i, 1), points.col(1).maxCoeff());  // the top, which was at the largest z
@@ -272,6 +262,15 @@ TEST(Glb, NumbersWithoutANameInGltfHaveNamesOfTheirOwn) {
   EXPECT_TRUE((found.col(0).array() == places.col(2).array()).all());
   EXPECT_EQ(floats(model, "_BAND").cols(), 3);
   EXPECT_EQ(floats(model, "_WIDE").size(), 0);
+}
+
+TEST(Glb, NumbersWhoseNamesBecomeEqualAreAllWritten) {
+  Mesh mesh = octahedron();
+  mesh.attributes = {{"a b", Values::Ones(6, 1), {}}, {"a_b", Values::Constant(6, 1, 2.0), {}}};
+  const tinygltf::Model model = written(mesh);
+  EXPECT_TRUE((floats(model, "_A_B").array() == 1.0F).all());
+  ASSERT_GT(floats(model, "_A_B_").size(), 0);
+  EXPECT_TRUE((floats(model, "_A_B_").array() == 2.0F).all());
 }
 
 }  // namespace

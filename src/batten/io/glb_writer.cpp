@@ -129,11 +129,13 @@ class SurfaceModel {
   void add_own(GlbBlocks& blocks, std::map<std::string, int>& attributes) const {
     for (const Attribute& attribute : mesh_.attributes) {
       if (!is_glb_own(attribute)) continue;
+      std::string name = glb_own_name(attribute.name);
+      while (attributes.count(name) > 0) name += '_';  // "a b" and "a_b" would have one
       const Eigen::Index columns = attribute.values.cols();
-      attributes[glb_own_name(attribute.name)] = columns == 1   ? add_own<1>(blocks, attribute)
-                                                 : columns == 2 ? add_own<2>(blocks, attribute)
-                                                 : columns == 3 ? add_own<3>(blocks, attribute)
-                                                                : add_own<4>(blocks, attribute);
+      attributes[name] = columns == 1   ? add_own<1>(blocks, attribute)
+                         : columns == 2 ? add_own<2>(blocks, attribute)
+                         : columns == 3 ? add_own<3>(blocks, attribute)
+                                        : add_own<4>(blocks, attribute);
     }
   }
 
