@@ -87,7 +87,7 @@ void draw_shots(const std::vector<Shot>& shots, RenderOptions options, const Col
   ProgressBar progress("drawing", job.common.quiet);
   const Progress report = progress.callback();
   const double share = 1.0 / static_cast<double>(viewpoints.size() * shots.size());
-  std::vector<std::string> notes;
+  std::vector<std::string> notes;  // of the first panel that leaves something out
   double done = 0.0;
   for (std::size_t i = 0; i < viewpoints.size(); ++i) {
     options.viewpoint = viewpoints[i];
@@ -102,16 +102,19 @@ void draw_shots(const std::vector<Shot>& shots, RenderOptions options, const Col
       if (place / layout.columns + 1 == layout.rows)
         own.height = height - (layout.rows - 1) * (options.height + below) - below;
       const Progress part = [&](double here) { return !report || report(done + share * here); };
-      panels.push_back({render(*shot.scene, own, part, &notes), shot.caption});
+      std::vector<std::string> left_out;
+      panels.push_back({render(*shot.scene, own, part, &left_out), shot.caption});
+      if (notes.empty()) notes = std::move(left_out);
       done += share;
     }
     Picture picture = in_rows(panels, layout.columns, options.style);
     if (scale != nullptr) picture = beside({{std::move(picture), ""}, bar}, options.style);
     write_png(arguments.turntable > 0 ? numbered(arguments.path, i) : arguments.path, picture);
   }
-  if (notes.empty()) return;
-  job.notes.push_back(arguments.path + ": " + notes.front());
-  if (!job.common.quiet) fmt::print(stderr, "batten: {}\n", job.notes.back());
+  for (const std::string& note : notes) {
+    job.notes.push_back(arguments.path + ": " + note);
+    if (!job.common.quiet) fmt::print(stderr, "batten: {}\n", job.notes.back());
+  }
 }
 
 }  // namespace

@@ -66,8 +66,7 @@ void write_animation(const std::string& path, const Mesh& mesh, const MorphTarge
 #ifdef BATTEN_WITH_GLTF
   write_atomically(path, [&](const std::string& temporary) {
     io::OutputFile file(temporary, name, progress);
-    const UpAxis up = options.up == UpAxis::Auto ? guess_up_axis(mesh, UpAxis::Y) : options.up;
-    io::write_glb(file, mesh, up, &targets);
+    io::write_glb(file, mesh, io::up_axis_to_write(mesh, options.up), &targets);
     file.close();
   });
 #else

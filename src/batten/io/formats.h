@@ -25,6 +25,10 @@ void write_ply(OutputFile& file, const Mesh& mesh, Encoding encoding);
 void write_off(OutputFile& file, const Mesh& mesh);
 void write_stl(OutputFile& file, const Mesh& mesh, Encoding encoding);
 void write_xyz(OutputFile& file, const Mesh& mesh);
+/// WriteOptions::up, or where it is Auto the guess.
+inline UpAxis up_axis_to_write(const Mesh& mesh, UpAxis up) {
+  return up == UpAxis::Auto ? guess_up_axis(mesh, UpAxis::Y) : up;
+}
 /// In builds with tinygltf (BATTEN_WITH_GLTF) only. targets: null, or targets that write_animation has checked.
 void write_glb(OutputFile& file, const Mesh& mesh, UpAxis up, const MorphTargets* targets = nullptr);
 /// True for numbers at vertices that glTF has no name for, and not more than four a vertex.

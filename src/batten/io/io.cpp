@@ -23,17 +23,13 @@ struct Format {
   UpAxis usual_up;
 };
 
-UpAxis up_axis_to_write(const Mesh& mesh, UpAxis up) {
-  return up == UpAxis::Auto ? guess_up_axis(mesh, UpAxis::Y) : up;
-}
-
 io::Encoding encoding_of(const WriteOptions& options) {
   return options.binary ? io::Encoding::Binary : io::Encoding::Text;
 }
 
 void write_glb(io::OutputFile& file, const Mesh& mesh, const WriteOptions& options) {
 #ifdef BATTEN_WITH_GLTF
-  io::write_glb(file, mesh, up_axis_to_write(mesh, options.up));
+  io::write_glb(file, mesh, io::up_axis_to_write(mesh, options.up));
 #else
   (void)mesh;
   (void)options;
@@ -71,7 +67,7 @@ constexpr Format kFormats[] = {
     {"gltf", read_gltf, nullptr, UpAxis::Y},
     {"usda", nullptr,
      [](io::OutputFile& file, const Mesh& mesh, const WriteOptions& options) {
-       io::write_usda(file, mesh, up_axis_to_write(mesh, options.up));
+       io::write_usda(file, mesh, io::up_axis_to_write(mesh, options.up));
      },
      UpAxis::Y},
 };

@@ -10,6 +10,21 @@
 
 namespace batten {
 
+namespace {
+
+/// The tags of `given` on those vertices for which keep(vertex) is true, moved to place(vertex).
+template <typename Keep, typename Place>
+void add_tags(const Mesh& given, const Keep& keep, const Place& place, Mesh& mesh) {
+  for (const Crease& crease : given.creases) {
+    if (keep(crease.a)) mesh.creases.push_back({place(crease.a), place(crease.b), crease.sharpness});
+  }
+  for (const Corner& corner : given.corners) {
+    if (keep(corner.vertex)) mesh.corners.push_back({place(corner.vertex), corner.sharpness});
+  }
+}
+
+}  // namespace
+
 PartRefinement::PartRefinement(const Topology& topology, const Topology& child, Buffer<std::uint8_t> is_refined)
     : parent_(topology), is_refined_(std::move(is_refined)), part_(topology) {
   if (static_cast<Index>(is_refined_.size()) != topology.face_count() ||
@@ -45,21 +60,6 @@ void PartRefinement::place_vertices(const Topology& child) {
     sources_.push_back(v);
   }
 }
-
-namespace {
-
-/// The tags of `given` on those vertices for which keep(vertex) is true, moved to place(vertex).
-template <typename Keep, typename Place>
-void add_tags(const Mesh& given, const Keep& keep, const Place& place, Mesh& mesh) {
-  for (const Crease& crease : given.creases) {
-    if (keep(crease.a)) mesh.creases.push_back({place(crease.a), place(crease.b), crease.sharpness});
-  }
-  for (const Corner& corner : given.corners) {
-    if (keep(corner.vertex)) mesh.corners.push_back({place(corner.vertex), corner.sharpness});
-  }
-}
-
-}  // namespace
 
 Mesh PartRefinement::tagged_mesh(const Topology& child) const {
   Buffer<std::uint8_t> moved(places_.size(), 0);

@@ -134,10 +134,6 @@ void run_round(const Tiling& tiling, const Tile& tile, const Round& round, const
   if (!round.back().last) std::copy_n(scratch.y.begin(), tile.own_count, places.after->y.begin() + tile.first);
 }
 
-}  // namespace
-
-namespace {
-
 /// The columns of G, with the same weights in all rows that have as many: what a tiling is made from.
 class ColumnsOnly : public RowSource {
  public:
