@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "batten/io/io.h"
+#include "batten/medial/medial_io.h"
 #include "shapes.h"
 
 int main(int count, char** words) {
@@ -17,6 +18,8 @@ int main(int count, char** words) {
     for (batten::models::Model& model : batten::models::broken_models()) models.push_back(std::move(model));
     for (const batten::models::Model& model : models)
       batten::write_mesh(std::string(words[1]) + "/" + model.name + ".obj", model.mesh);
+    for (const batten::models::MedialSample& sample : batten::models::medial_models())
+      batten::write_medial(std::string(words[1]) + "/" + sample.file, sample.model);
   } catch (const std::exception& error) {
     std::cerr << error.what() << "\n";
     return 1;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "batten/medial/medial_model.h"
 #include "batten/mesh/mesh.h"
 
 namespace batten::models {
@@ -53,6 +54,22 @@ std::vector<Model> morph_models();
 
 /// Meshes without a surface, for `batten repair`.
 std::vector<Model> broken_models();
+
+MedialModel medial_slab();  ///< a bent plate, 5 by 8 atoms
+MedialModel medial_tube();  ///< a strip along three quarters of a circle, thickest in its middle, 3 by 15 atoms
+MedialModel medial_bean();  ///< an s-rep of 20 lines and 3 steps, bent like a kidney
+
+/// A handle with two prongs at its end and a thumb on its upper side, joined by hinges: a closed surface.
+MedialModel medial_fork();
+
+/// A medial model and the file that holds it.
+struct MedialSample {
+  std::string file;
+  MedialModel model;
+};
+
+/// For `batten medial`.
+std::vector<MedialSample> medial_models();
 
 /// The distance to a shape's surface or a little less, negative inside.
 using Field = std::function<double(const Eigen::Vector3d&)>;

@@ -31,7 +31,7 @@ const Arrows kArrows = {{"parallel", {}},
                         {"expand", {"interpolate", "nearest", "tessellate"}},
                         {"dynamics", {"energy", "solve", "nearest"}},
                         {"fit", {"dynamics", "interpolate", "tessellate"}},
-                        {"medial", {"interpolate", "tessellate"}},
+                        {"medial", {"interpolate", "tessellate", "io"}},
                         {"volume", {"fit"}}};
 
 std::set<std::string> reach(const std::string& room) {

@@ -7,6 +7,9 @@
 
 #include "batten/interpolate/interpolated_mesh.h"
 #include "batten/io/io.h"
+#include "batten/medial/medial_boundary.h"
+#include "batten/medial/medial_check.h"
+#include "batten/medial/medial_io.h"
 #include "batten/mesh/repair.h"
 #include "batten/mesh/summary.h"
 #include "batten/mesh/topology.h"
@@ -18,6 +21,7 @@
 #include "../../models/blocks.cpp"
 #include "../../models/broken.cpp"
 #include "../../models/field.cpp"
+#include "../../models/medial.cpp"
 #include "../../models/pipes.cpp"
 
 namespace batten {
@@ -195,6 +199,28 @@ TEST(Models, FilesAreWhatTheGeneratorMakes) {
       EXPECT_EQ(file.creases[i].b, expected.mesh.creases[i].b);
       EXPECT_EQ(file.creases[i].sharpness, expected.mesh.creases[i].sharpness);
     }
+  }
+}
+
+/// Their spokes are Blum's, do not pass each other, and the files hold them.
+TEST(Models, MedialModelsAreSound) {
+  for (const models::MedialSample& sample : models::medial_models()) {
+    const MedialModel file = read_medial(std::string(BATTEN_SOURCE_DIR) + "/models/" + sample.file);
+    ASSERT_EQ(file.figures.size(), sample.model.figures.size()) << sample.file;
+    for (std::size_t i = 0; i < file.figures.size(); ++i) {
+      EXPECT_LT((file.figures[i].sheet.points - sample.model.figures[i].sheet.points).cwiseAbs().maxCoeff(), 2e-4);
+      EXPECT_LT((file.figures[i].up - sample.model.figures[i].up).cwiseAbs().maxCoeff(), 2e-4);
+      EXPECT_LT((file.figures[i].down - sample.model.figures[i].down).cwiseAbs().maxCoeff(), 2e-4);
+    }
+    const MedialBoundary boundary = medial_boundary(file);
+    const test::ManifoldReport report = test::examine(boundary.mesh);
+    ASSERT_TRUE(report.valid) << sample.file << ": " << report.reason;
+    EXPECT_EQ(report.boundary_loop_count, 0) << sample.file;
+    EXPECT_EQ(report.euler, 2) << sample.file;
+    EXPECT_GT(report.volume, 0.0) << sample.file;
+    const SpokeCheck check = check_spokes(boundary);
+    EXPECT_TRUE(check.crossings.empty()) << sample.file;
+    EXPECT_LT(check.max_length_difference, 1e-3) << sample.file;
   }
 }
 

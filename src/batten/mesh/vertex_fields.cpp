@@ -40,17 +40,18 @@ Scalars vertex_sharpnesses(const Topology& topology) {
   return field;
 }
 
-void fill_from_neighbours(Index face_size, const Buffer<Index>& face_vertices, Scalars& field) {
-  std::vector<std::pair<Index, Index>> neighbours;  // of the vertices without a number
-  const auto size = static_cast<std::size_t>(face_size);
-  for (std::size_t first = 0; first < face_vertices.size(); first += size) {
-    for (std::size_t k = 0; k < size; ++k) {
-      const Index a = face_vertices[first + k];
-      const Index b = face_vertices[first + (k + 1 == size ? 0 : k + 1)];
-      if (std::isnan(field[a]) && !std::isnan(field[b])) neighbours.emplace_back(a, b);
-      if (std::isnan(field[b]) && !std::isnan(field[a])) neighbours.emplace_back(b, a);
-    }
-  }
+namespace {
+
+/// Vertices without a number, each with a neighbour that has one.
+using NumberedNeighbours = std::vector<std::pair<Index, Index>>;
+
+void note_edge(Index a, Index b, const Scalars& field, NumberedNeighbours& neighbours) {
+  if (std::isnan(field[a]) && !std::isnan(field[b])) neighbours.emplace_back(a, b);
+  if (std::isnan(field[b]) && !std::isnan(field[a])) neighbours.emplace_back(b, a);
+}
+
+/// An edge may have been noted more than once.
+void fill_means(NumberedNeighbours& neighbours, Scalars& field) {
   std::sort(neighbours.begin(), neighbours.end());
   neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
   for (std::size_t begin = 0; begin < neighbours.size();) {
@@ -62,6 +63,27 @@ void fill_from_neighbours(Index face_size, const Buffer<Index>& face_vertices, S
     field[neighbours[begin].first] = sum / static_cast<double>(end - begin);
     begin = end;
   }
+}
+
+}  // namespace
+
+void fill_from_neighbours(Index face_size, const Buffer<Index>& face_vertices, Scalars& field) {
+  NumberedNeighbours neighbours;
+  const auto size = static_cast<std::size_t>(face_size);
+  for (std::size_t first = 0; first < face_vertices.size(); first += size) {
+    for (std::size_t k = 0; k < size; ++k)
+      note_edge(face_vertices[first + k], face_vertices[first + (k + 1 == size ? 0 : k + 1)], field, neighbours);
+  }
+  fill_means(neighbours, field);
+}
+
+void fill_from_neighbours(const Topology& topology, Scalars& field) {
+  NumberedNeighbours neighbours;
+  for (Index edge = 0; edge < topology.edge_count(); ++edge) {
+    const Index h = topology.edge_half_edge(edge);
+    note_edge(topology.origin(h), topology.destination(h), field, neighbours);
+  }
+  fill_means(neighbours, field);
 }
 
 }  // namespace batten

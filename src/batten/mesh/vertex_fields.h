@@ -20,5 +20,7 @@ Scalars vertex_sharpnesses(const Topology& topology);
 /// Gives each vertex whose number is NaN the mean over those neighbours along edges that have one; without such a
 /// neighbour it stays NaN. Faces have `face_size` entries of face_vertices each; field: a number a vertex. O(corners).
 void fill_from_neighbours(Index face_size, const Buffer<Index>& face_vertices, Scalars& field);
+/// The same along the edges of a topology whose faces have any size.
+void fill_from_neighbours(const Topology& topology, Scalars& field);
 
 }  // namespace batten

@@ -1,0 +1,17 @@
+/// \file The two formats of medial models: 3D Slicer's elliptical s-reps, and figures of atoms.
+#pragma once
+#include "batten/medial/json_place.h"
+#include "batten/medial/medial_model.h"
+
+namespace batten::medial {
+
+/// document: the whole file. Throws Error(BadFile) naming line and step.
+MedialModel srep_from_json(const JsonPlace& document);
+/// figure: on an elliptical grid. In LPS.
+Json srep_to_json(const MedialFigure& figure);
+
+/// Batten's own format.
+MedialModel figures_from_json(const JsonPlace& document);
+Json figures_to_json(const MedialModel& model);
+
+}  // namespace batten::medial
