@@ -175,6 +175,19 @@ struct MorphArguments {
   bool resample = false;
 };
 
+/// What the colours of a medial surface show.
+enum class MedialColoring { Angle, Distance, Shift, Radius };
+
+struct MedialArguments {
+  CommonArguments common;  ///< input: the medial model
+  PictureArguments picture;
+  int levels = -1;  ///< -1: write the control mesh, or for GLB at most 3
+  std::optional<MedialColoring> coloring;
+  std::string sheet;     ///< mesh of the medial sheet
+  std::string model;     ///< the model again
+  int sheet_levels = 0;  ///< of these two
+};
+
 struct InfoArguments {
   CommonArguments common;
   bool curvature = false;
@@ -202,5 +215,6 @@ int run_distance(const DistanceArguments& arguments);
 int run_denoise(const DenoiseArguments& arguments);
 int run_sharpen(const SharpenArguments& arguments);
 int run_bands(const BandsArguments& arguments);
+int run_medial(const MedialArguments& arguments);
 
 }  // namespace batten::cli

@@ -16,6 +16,15 @@ Job::Job(std::string verb_in, const CommonArguments& arguments)
   stages.finish("read");
 }
 
+Job::Job(std::string verb_in, const CommonArguments& arguments, const std::function<void()>& read, UpAxis usual_up)
+    : verb(std::move(verb_in)),
+      common(arguments),
+      limit(arguments.threads),
+      up(arguments.up == UpAxis::Auto ? usual_up : arguments.up) {
+  read();
+  stages.finish("read");
+}
+
 Topology Job::connect() {
   Topology topology = connect_as_given();
   if (!common.features) return topology;

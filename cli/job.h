@@ -1,5 +1,6 @@
 /// \file What verbs do alike, from the input to the report.
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,9 @@ namespace batten::cli {
 struct Job {
   /// Limits the threads and reads the input; counts as a stage. The arguments must outlive it.
   Job(std::string verb_in, const CommonArguments& arguments);
+  /// The same for a verb whose input is no mesh: `read` reads it, the mesh stays empty, and `usual_up` is up if the
+  /// arguments do not say.
+  Job(std::string verb_in, const CommonArguments& arguments, const std::function<void()>& read, UpAxis usual_up);
 
   /// The topology of the mesh; counts as a stage. Says on stderr where seams stay open. With --features the sharp edges
   /// that are found become creases of the mesh first, and are told by print() and report().

@@ -108,6 +108,10 @@ void add_input(CLI::App& verb, CommonArguments& common, const std::string& name)
       ->required();
   verb.add_option("--input-format", common.input_format, "the input's type where its name does not tell")
       ->option_text("obj|ply|off|stl|xyz|glb|gltf");
+  add_common(verb, common);
+}
+
+void add_common(CLI::App& verb, CommonArguments& common) {
   verb.add_option("--threads", common.threads, "use at most so many threads (the result is the same)")
       ->check(whole_number(0))
       ->option_text("N");
