@@ -58,6 +58,24 @@ enum class CreaseMethod { Uniform, Chaikin };
 /// Which weights a Catmull-Clark edge point takes beside triangles.
 enum class TriangleRule { Catmark, Smooth };
 
+/// Where values at corners, such as texture coordinates, are linear (OpenSubdiv's names). An edge across which they
+/// differ is a seam. All makes them linear within every face. The others smooth them as the scheme smooths points, and
+/// seams and boundaries as it smooths boundary curves, but for what each keeps as it is.
+enum class FaceVaryingRule {
+  None,          ///< keeps nothing: seams are curves everywhere
+  CornersOnly,   ///< corners: where one face alone has a value
+  CornersPlus1,  ///< and vertices where three or more pieces meet, or one of two pieces has a sharp edge inside
+  CornersPlus2,  ///< and the ends of seams, and both values where one of two pieces has a corner
+  Boundaries,    ///< all seams and boundaries, which are linear
+  All            ///< everything
+};
+
+/// How refinement carries values at the vertices.
+enum class CarryRule {
+  Scheme,   ///< by the scheme's masks, as it carries points: smooth, but an approximation of the values
+  Midpoint  ///< linearly: the values stay, edges and faces get the mean of theirs; continuous, within their range
+};
+
 /// A sharpness of 10 or more is infinite, as in OpenSubdiv.
 inline constexpr float kInfiniteSharpness = 10.0F;
 

@@ -12,6 +12,9 @@
 #include "batten/mesh/primitives.h"
 #include "batten/mesh/triangulate.h"
 #include "batten/parallel/parallel.h"
+#include "batten/patch/surface_patches.h"
+#include "batten/refine/refinement.h"
+#include "batten/tessellate/face_varying_limit.h"
 #include "batten/tessellate/tessellator.h"
 #include "support/errors.h"
 #include "support/shapes.h"
@@ -168,6 +171,68 @@ TEST(AdaptiveSurfaceMesh, AtCornersAreLinearInTheirFacesAndKeepSeams) {
     EXPECT_EQ(uniform_row.size(), uniform_rows.size());
     EXPECT_GT(missing, 0);
   });
+}
+
+/// Where the same places of a uniform tessellation have their values, and where linear values stand.
+TEST(AdaptiveSurfaceMesh, AtCornersFollowTheFaceVaryingRule) {
+  for (const CarriedCase& which : carried_cases()) {
+    SCOPED_TRACE(which.name);
+    if (is_interpolating(which.scheme.kind)) continue;
+    Scheme scheme = which.scheme;
+    scheme.face_varying = FaceVaryingRule::CornersOnly;
+    const Topology topology(which.mesh);
+    const AdaptiveMesh smooth = adaptive_surface_mesh(topology, scheme, which.mesh, which.options);
+    const Tessellator tessellator(topology, scheme, 6);
+    const Attribute uniform =
+        face_varying_limit(with_surface_holes(topology, scheme), scheme, named(which.mesh, "uv"), 6);
+    Buffer<Index> faces(uniform.corner_rows.size());
+    tessellator.faces(faces);
+    // By base face and vertex; holes have no faces there.
+    std::map<std::pair<Index, Index>, Index> rows;
+    const auto per_face = static_cast<std::size_t>(tessellator.steps() * tessellator.steps() * tessellator.face_size());
+    const SurfacePatches patches(topology, scheme);
+    std::size_t first = 0;
+    for (Index f = 0; f < tessellator.base().face_count(); ++f) {
+      if (!patches.holes().empty() && patches.holes()[f] != 0) continue;
+      for (std::size_t c = first; c < first + per_face; ++c) rows[{f, faces[c]}] = uniform.corner_rows[c];
+      first += per_face;
+    }
+    const Attribute& uv = named(smooth.mesh, "uv");
+    Index compared = 0;
+    for (std::size_t c = 0; c < uv.corner_rows.size(); ++c) {
+      const Index face = smooth.base_faces[c / static_cast<std::size_t>(smooth.mesh.face_size(0))];
+      const double i = smooth.corner_parameters[c][0] * tessellator.steps();
+      const double j = smooth.corner_parameters[c][1] * tessellator.steps();
+      if (i != std::floor(i) || j != std::floor(j)) continue;
+      const Index expected = rows.at({face, tessellator.vertex(face, static_cast<Index>(i), static_cast<Index>(j))});
+      ASSERT_EQ(uv.corner_rows[c] < 0, expected < 0);
+      if (expected < 0) continue;
+      ASSERT_LT((uv.values.row(uv.corner_rows[c]) - uniform.values.row(expected)).norm(), 1e-12);
+      ++compared;
+    }
+    EXPECT_GT(compared, 0);
+  }
+}
+
+TEST(AdaptiveSurfaceMesh, MidpointsAreThoseOfUniformRefinement) {
+  for (const CarriedCase& which : carried_cases()) {
+    SCOPED_TRACE(which.name);
+    Mesh mesh = which.mesh;
+    for (Attribute& attribute : mesh.attributes) attribute.carry = CarryRule::Midpoint;
+    const Topology topology(mesh);
+    const AdaptiveMesh result = adaptive_surface_mesh(topology, which.scheme, mesh, which.options);
+    const Tessellator tessellator(topology, which.scheme, 6);
+    const Values uniform = tessellator.midpoints(named(mesh, "color").values);
+    const Values& colors = named(result.mesh, "color").values;
+    for (std::size_t v = 0; v < result.places.size(); ++v) {
+      const SurfacePlace& place = result.places[v];
+      const double i = place.u * tessellator.steps();
+      const double j = place.v * tessellator.steps();
+      if (i != std::floor(i) || j != std::floor(j)) continue;
+      const Index at = tessellator.vertex(place.face, static_cast<Index>(i), static_cast<Index>(j));
+      ASSERT_LT((colors.row(static_cast<Eigen::Index>(v)) - uniform.row(at)).norm(), 1e-14);
+    }
+  }
 }
 
 std::string group_at(const std::vector<Group>& groups, const std::string& keyword, Index face) {

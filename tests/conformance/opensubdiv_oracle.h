@@ -44,11 +44,16 @@ inline OpenSubdiv::Sdc::Options oracle_options(const Scheme& scheme) {
                                                                           : Options::CREASE_UNIFORM);
   options.SetTriangleSubdivision(scheme.triangle_rule == TriangleRule::Smooth ? Options::TRI_SUB_SMOOTH
                                                                               : Options::TRI_SUB_CATMARK);
+  const std::array<Options::FVarLinearInterpolation, 6> rules{
+      Options::FVAR_LINEAR_NONE,          Options::FVAR_LINEAR_CORNERS_ONLY, Options::FVAR_LINEAR_CORNERS_PLUS1,
+      Options::FVAR_LINEAR_CORNERS_PLUS2, Options::FVAR_LINEAR_BOUNDARIES,   Options::FVAR_LINEAR_ALL};
+  options.SetFVarLinearInterpolation(rules[static_cast<std::size_t>(scheme.face_varying)]);
   return options;
 }
 
-/// The mesh's faces, creases, corners and holes, as OpenSubdiv takes them.
-inline std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> oracle_refiner(const Mesh& mesh, const Scheme& scheme) {
+/// The mesh's faces, creases, corners and holes, as OpenSubdiv takes them, and an attribute at corners if one is given.
+inline std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> oracle_refiner(const Mesh& mesh, const Scheme& scheme,
+                                                                        const Attribute* at_corners = nullptr) {
   using namespace OpenSubdiv;
   std::vector<int> sizes;
   for (Index f = 0; f < mesh.face_count(); ++f) sizes.push_back(mesh.face_size(f));
@@ -77,6 +82,13 @@ inline std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> oracle_refiner(const Me
   descriptor.cornerWeights = corner_weights.data();
   descriptor.numHoles = static_cast<int>(mesh.holes.size());
   descriptor.holeIndices = mesh.holes.data();
+  Far::TopologyDescriptor::FVarChannel channel;
+  if (at_corners != nullptr) {
+    channel.numValues = static_cast<int>(at_corners->values.rows());
+    channel.valueIndices = at_corners->corner_rows.data();
+    descriptor.numFVarChannels = 1;
+    descriptor.fvarChannels = &channel;
+  }
   using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
   const Sdc::SchemeType kind = scheme.kind == SchemeKind::Loop ? Sdc::SCHEME_LOOP : Sdc::SCHEME_CATMARK;
   const Factory::Options options(kind, oracle_options(scheme));
@@ -90,7 +102,9 @@ class Oracle {
   using PrimvarRefiner = OpenSubdiv::Far::PrimvarRefinerReal<double>;
 
   /// Throws std::runtime_error where OpenSubdiv refuses the mesh or its child faces are not ours.
-  Oracle(const Mesh& mesh, const Scheme& scheme, int levels) : refiner_(oracle_refiner(mesh, scheme)) {
+  /// at_corners: an attribute of at most three columns whose corners all have a row, or none.
+  Oracle(const Mesh& mesh, const Scheme& scheme, int levels, const Attribute* at_corners = nullptr)
+      : refiner_(oracle_refiner(mesh, scheme, at_corners)) {
     if (refiner_ == nullptr) throw std::runtime_error("OpenSubdiv refuses the mesh");
     Refiner::UniformOptions options(levels);
     options.fullTopologyInLastLevel = true;
@@ -99,6 +113,7 @@ class Oracle {
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
       for (int c = 0; c < 3; ++c) points_[0][v].x[c] = mesh.points(v, c);
     }
+    if (at_corners != nullptr) add_corner_values(at_corners->values);
     topologies_.emplace_back(mesh);
     vertices_.push_back(identity(mesh.vertex_count()));
     faces_.push_back(identity(mesh.face_count()));
@@ -107,6 +122,11 @@ class Oracle {
       points_.emplace_back(static_cast<std::size_t>(refiner_->GetLevel(level).GetNumVertices()));
       OraclePoint* target = points_[level].data();
       primvars.Interpolate(level, points_[level - 1], target);
+      if (at_corners != nullptr) {
+        corner_points_.emplace_back(static_cast<std::size_t>(refiner_->GetLevel(level).GetNumFVarValues(0)));
+        OraclePoint* corner_target = corner_points_[level].data();
+        primvars.InterpolateFaceVarying(level, corner_points_[level - 1], corner_target);
+      }
       topologies_.push_back(Refinement(topologies_[level - 1], scheme).child());
       match(level, scheme);
     }
@@ -132,6 +152,17 @@ class Oracle {
     return {in_our_order(positions, level), in_our_order(first, level), in_our_order(second, level)};
   }
 
+  /// The values at the corners of a level, H-by-3 in the order of our half-edges; columns that were not given are 0.
+  Values corner_values(int level) const { return at_half_edges(corner_points_[level], level); }
+
+  /// The limits of the values at the corners of the last level.
+  Values corner_limits() const {
+    OraclePoints limits(corner_points_[max_level()].size());
+    OraclePoint* rows = limits.data();
+    PrimvarRefiner(*refiner_).LimitFaceVarying(corner_points_[max_level()], rows);
+    return at_half_edges(limits, max_level());
+  }
+
   float edge_sharpness(int level, Index edge) const {
     const Topology& topology = topologies_[level];
     const Index h = topology.edge_half_edge(edge);
@@ -149,6 +180,31 @@ class Oracle {
     return map;
   }
   OpenSubdiv::Far::TopologyLevel const& level_of(int level) const { return refiner_->GetLevel(level); }
+
+  void add_corner_values(const Values& values) {
+    corner_points_.emplace_back(static_cast<std::size_t>(values.rows()));
+    for (Eigen::Index i = 0; i < values.rows(); ++i) {
+      for (Eigen::Index c = 0; c < values.cols(); ++c) corner_points_[0][i].x[c] = values(i, c);
+    }
+  }
+
+  Values at_half_edges(const OraclePoints& points, int level) const {
+    const Topology& topology = topologies_[level];
+    Values rows(topology.half_edge_count(), 3);
+    for (Index f = 0; f < topology.face_count(); ++f) {
+      const Index theirs = faces_[level][f];
+      const auto around = level_of(level).GetFaceVertices(theirs);
+      const auto corners = level_of(level).GetFaceFVarValues(theirs, 0);
+      const Index first = topology.face_begin(f);
+      int shift = 0;
+      while (around[shift] != vertices_[level][topology.origin(first)]) ++shift;
+      for (int i = 0; i < around.size(); ++i) {
+        const OraclePoint& point = points[corners[(shift + i) % around.size()]];
+        for (int c = 0; c < 3; ++c) rows(first + i, c) = point.x[c];
+      }
+    }
+    return rows;
+  }
 
   Index find_edge(int level, Index a, Index b) const {
     return level_of(level).FindEdge(vertices_[level][a], vertices_[level][b]);
@@ -217,7 +273,8 @@ class Oracle {
   }
 
   std::unique_ptr<Refiner> refiner_;
-  std::vector<OraclePoints> points_;     ///< theirs, level by level
+  std::vector<OraclePoints> points_;  ///< theirs, level by level
+  std::vector<OraclePoints> corner_points_;
   std::deque<Topology> topologies_;      ///< ours
   std::vector<Buffer<Index>> vertices_;  ///< our vertex -> theirs
   std::vector<Buffer<Index>> faces_;     ///< our face -> theirs

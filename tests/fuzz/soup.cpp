@@ -95,6 +95,7 @@ Soup decode_soup(const std::uint8_t* data, std::size_t size) {
   soup.mesh.boundary = static_cast<BoundaryRule>(rules % 3);
   soup.mesh.crease_method = static_cast<CreaseMethod>(rules / 3 % 2);
   soup.mesh.triangle_rule = static_cast<TriangleRule>(rules / 6 % 2);
+  soup.mesh.face_varying = static_cast<FaceVaryingRule>(rules / 12 % 6);
   soup.alpha = bytes.below(5) / 4.0;
   soup.cancel_at = std::max(bytes.next() - 192, 0);
   add_points(bytes, soup.mesh);

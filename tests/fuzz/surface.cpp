@@ -6,6 +6,7 @@
 #include "batten/mesh/check.h"
 #include "batten/mesh/repair.h"
 #include "batten/mesh/triangulate.h"
+#include "batten/refine/face_varying.h"
 #include "fuzz/memory.h"
 #include "fuzz/soup.h"
 
@@ -28,6 +29,20 @@ void refine_twice(const Topology& topology, const Scheme& scheme, const Points& 
   require(limit.apply(fine.values).allFinite(), "limit positions that are not finite");
   const LimitNormals normals = limit_normals(topology, scheme, points);
   require(normals.vertices.allFinite() && normals.corners.allFinite(), "normals that are not finite");
+}
+
+/// Values at corners with seams here and there, rows that serve several places, and faces without any.
+void refine_corners(const Topology& topology, const Scheme& scheme, const Points& points) {
+  Attribute attribute{"uv", points, {}};
+  for (Index h = 0; h < topology.half_edge_count(); ++h) {
+    const Index other = h * 7 % topology.vertex_count();
+    attribute.corner_rows.push_back(h % 17 == 16 ? -1 : h % 5 == 4 ? other : topology.origin(h));
+  }
+  FaceVaryingSurface surface = face_varying_surface(topology, scheme, attribute);
+  for (int level = 0; level < 2; ++level) surface = surface.refined();
+  require(surface.values.allFinite(), "values at corners that are not finite");
+  const LimitMatrix limit(surface.topology, surface.scheme);
+  require(limit.apply(surface.values).allFinite(), "limits at corners that are not finite");
 }
 
 /// What is reported is measured once more, row by row.
@@ -66,6 +81,7 @@ void exercise(const Mesh& mesh, const Soup& soup) {
     if (kind == SchemeKind::Loop && !all_triangles(mesh)) continue;
     scheme.kind = kind;
     refine_twice(topology, scheme, mesh.points);
+    refine_corners(topology, scheme, mesh.points);
     interpolate_all_ways(topology, scheme, mesh.points, soup.cancel_at);
   }
 }

@@ -122,6 +122,7 @@ inline void expect_same_tags(const Mesh& a, const Mesh& b) {
   EXPECT_EQ(a.boundary, b.boundary);
   EXPECT_EQ(a.crease_method, b.crease_method);
   EXPECT_EQ(a.triangle_rule, b.triangle_rule);
+  EXPECT_EQ(a.face_varying, b.face_varying);
 }
 
 inline void expect_same_mesh(const Mesh& a, const Mesh& b) {

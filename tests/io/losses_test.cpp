@@ -19,6 +19,7 @@ Mesh full_mesh() {
   mesh.boundary = BoundaryRule::EdgeAndCorner;
   mesh.crease_method = CreaseMethod::Chaikin;
   mesh.triangle_rule = TriangleRule::Smooth;
+  mesh.face_varying = FaceVaryingRule::Boundaries;
   mesh.scheme = SchemeKind::CatmullClark;
   Buffer<Index> rows(mesh.face_vertices.size(), 0);
   mesh.attributes = {{"uv", Values::Zero(1, 2), rows},
@@ -32,7 +33,8 @@ Mesh full_mesh() {
 
 TEST(Losses, EveryFormatNamesWhatItDoesNotKeep) {
   const Mesh mesh = full_mesh();
-  const Words tags = {"boundary rule", "creases", "corners", "holes", "crease method", "triangle rule"};
+  const Words tags = {"boundary rule", "creases",       "corners",          "holes",
+                      "crease method", "triangle rule", "face-varying rule"};
   const auto with_tags = [&](const Words& before, const Words& after) {
     Words all = before;
     all.insert(all.end(), tags.begin(), tags.end());
@@ -67,6 +69,7 @@ TEST(Losses, NoneIsNamedWhereTheMeshComesBackAndOneWhereItDoesNot) {
   add("boundary", [&](Mesh& mesh) { mesh.boundary = full.boundary; });
   add("method", [&](Mesh& mesh) { mesh.crease_method = full.crease_method; });
   add("triangles", [&](Mesh& mesh) { mesh.triangle_rule = full.triangle_rule; });
+  add("face-varying", [&](Mesh& mesh) { mesh.face_varying = full.face_varying; });
   add("group", [&](Mesh& mesh) { mesh.groups = {full.groups[0]}; });
   add("material", [&](Mesh& mesh) { mesh.groups = {full.groups[1]}; });
   add("library", [&](Mesh& mesh) { mesh.material_libraries = full.material_libraries; });
@@ -75,8 +78,8 @@ TEST(Losses, NoneIsNamedWhereTheMeshComesBackAndOneWhereItDoesNot) {
   }
   const auto facts = [](const Mesh& mesh) {
     return std::tuple(mesh.face_vertices, mesh.creases.size(), mesh.corners.size(), mesh.holes, mesh.boundary,
-                      mesh.crease_method, mesh.triangle_rule, mesh.groups.size(), mesh.material_libraries,
-                      mesh.attributes.size());
+                      mesh.crease_method, mesh.triangle_rule, mesh.face_varying, mesh.groups.size(),
+                      mesh.material_libraries, mesh.attributes.size());
   };
   for (const auto& part : parts) {
     for (const std::string format : {"obj", "ply", "off", "xyz"}) {
@@ -102,6 +105,7 @@ TEST(Losses, WhatReadersAssumeAnywayIsNone) {
   mesh.boundary = BoundaryRule::EdgeOnly;
   mesh.crease_method = CreaseMethod::Uniform;
   mesh.triangle_rule = TriangleRule::Catmark;
+  mesh.face_varying = FaceVaryingRule::All;
   mesh.scheme = SchemeKind::CatmullClark;
   mesh.groups = {{"s", "off", 0}};
   for (const char* path : {"m.obj", "m.ply", "m.off", "m.usda"}) EXPECT_EQ(find_losses(path, mesh), Words{}) << path;

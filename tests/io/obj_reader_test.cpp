@@ -160,6 +160,7 @@ TEST(ObjReader, ReadsOpenSubdivTags) {
   EXPECT_EQ(mesh.boundary, BoundaryRule::EdgeOnly);
   EXPECT_EQ(mesh.crease_method, CreaseMethod::Chaikin);
   EXPECT_EQ(mesh.triangle_rule, TriangleRule::Smooth);
+  EXPECT_EQ(mesh.face_varying, FaceVaryingRule::CornersOnly);
 }
 
 TEST(ObjReader, BoundaryRulesHaveOpenSubdivsNumbers) {

@@ -15,6 +15,7 @@ Mesh rich_mesh() {
   mesh.boundary = BoundaryRule::EdgeOnly;
   mesh.crease_method = CreaseMethod::Chaikin;
   mesh.triangle_rule = TriangleRule::Smooth;
+  mesh.face_varying = FaceVaryingRule::CornersPlus2;
   mesh.material_libraries = {"a.mtl", "b c.mtl"};
   mesh.groups = {{"o", "thing", 0}, {"g", "", 0}, {"usemtl", "red paint", 3}, {"s", "off", 3}, {"g", "end", 30}};
   mesh.attributes.push_back({"color", random_doubles(50, 4, 7), {}});
@@ -39,6 +40,14 @@ TEST(ObjWriter, EveryBoundaryRuleSurvives) {
     mesh.boundary = rule;
     mesh.crease_method = CreaseMethod::Uniform;
     mesh.triangle_rule = TriangleRule::Catmark;
+    expect_same_tags(mesh, round_trip(mesh, "obj"));
+  }
+}
+
+TEST(ObjWriter, EveryFaceVaryingRuleSurvives) {
+  for (int rule = 0; rule < 6; ++rule) {
+    Mesh mesh = random_mesh(3, 1);
+    mesh.face_varying = static_cast<FaceVaryingRule>(rule);
     expect_same_tags(mesh, round_trip(mesh, "obj"));
   }
 }

@@ -90,6 +90,7 @@ Mesh tagged_mesh() {
   mesh.holes = {3, 5};
   mesh.boundary = BoundaryRule::EdgeAndCorner;
   mesh.triangle_rule = TriangleRule::Smooth;
+  mesh.face_varying = FaceVaryingRule::CornersPlus1;
   mesh.groups = {{"usemtl", "red paint", 2}, {"usemtl", "2nd", 7}};
   mesh.attributes.push_back({"color", Values::Constant(mesh.vertex_count(), 4, 0.5), {}});
   Attribute uv{"uv", (Values(3, 2) << 0, 0, 1, 0, 0, 1).finished(), {}};
@@ -151,6 +152,16 @@ TEST(UsdaWriter, TheSurfaceIsTheMeshsOwn) {
   EXPECT_EQ(file.value("normals"), "nothing");
   EXPECT_EQ(written_usda(tagged_mesh()).value("triangleSubdivisionRule"), "\"smooth\"");
   EXPECT_EQ(written_usda(tagged_mesh()).value("interpolateBoundary"), "\"edgeAndCorner\"");
+}
+
+TEST(UsdaWriter, TheFaceVaryingRuleHasUsdsName) {
+  constexpr const char* kNames[] = {"none", "cornersOnly", "cornersPlus1", "cornersPlus2", "boundaries", "all"};
+  Mesh mesh = grid(1, 1);
+  EXPECT_EQ(written_usda(mesh).value("faceVaryingLinearInterpolation"), "\"all\"");
+  for (int rule = 0; rule < 6; ++rule) {
+    mesh.face_varying = static_cast<FaceVaryingRule>(rule);
+    EXPECT_EQ(written_usda(mesh).value("faceVaryingLinearInterpolation"), "\"" + std::string(kNames[rule]) + "\"");
+  }
 }
 
 TEST(UsdaWriter, PolygonsWithNormalsAreNoSubdivisionSurface) {

@@ -91,6 +91,27 @@ TEST(RefinedMesh, PointsAndVertexAttributesFollowTheScheme) {
   EXPECT_EQ(refined.mesh.attributes[0].values, refined.mesh.points.col(0));
 }
 
+TEST(RefinedMesh, MidpointsKeepTheValuesAndTheirRange) {
+  for (const SchemeKind kind : {SchemeKind::CatmullClark, SchemeKind::Loop}) {
+    Mesh mesh = kind == SchemeKind::Loop ? octahedron() : dodecahedron();
+    const Values heat = Values::Random(mesh.vertex_count(), 2);
+    mesh.attributes = {{"heat", heat, {}, CarryRule::Midpoint}};
+    Scheme scheme;
+    scheme.kind = kind;
+    const Topology topology(mesh);
+    const Mesh refined = refine_mesh(topology, scheme, mesh, 2).mesh;
+    const Values& fine = refined.attributes[0].values;
+    EXPECT_EQ(fine.topRows(mesh.vertex_count()), heat);
+    EXPECT_LE(fine.maxCoeff(), heat.maxCoeff());
+    EXPECT_GE(fine.minCoeff(), heat.minCoeff());
+    const Values once = refine_midpoints(topology, kind, heat);
+    const Index h = topology.edge_half_edge(3);
+    const Eigen::RowVector2d ends = heat.row(topology.origin(h)) + heat.row(topology.destination(h));
+    EXPECT_EQ(once.row(mesh.vertex_count() + 3), 0.5 * ends);
+    EXPECT_EQ(fine.topRows(once.rows()), once);
+  }
+}
+
 TEST(RefinedMesh, GroupsFollowTheirFaces) {
   Mesh mesh = grid(3, 1);
   mesh.groups = {{"g", "a", 0}, {"g", "b", 2}, {"g", "end", 3}};

@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <deque>
 #include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "batten/limit/limit_matrix.h"
+#include "batten/refine/face_varying.h"
 #include "batten/refine/refined_mesh.h"
 #include "batten/tessellate/surface_mesh.h"
 #include "batten/tessellate/tessellator.h"
@@ -52,6 +54,14 @@ struct SurfaceMeshErrors {
   double normals = 0.0;     ///< at corners
 };
 
+/// The limit of values at the corners of a refined mesh.
+inline Attribute corner_limit(const Topology& topology, const Scheme& scheme, const Attribute& attribute) {
+  if (scheme.has_linear_corners()) return attribute;
+  FaceVaryingSurface surface = face_varying_surface(topology, scheme, attribute);
+  surface.values = LimitMatrix(surface.topology, surface.scheme).apply(surface.values);
+  return surface.attribute(attribute.name);
+}
+
 inline SurfaceMeshErrors compare_surface_mesh(const Topology& topology, const Scheme& scheme, const Mesh& control,
                                               int levels) {
   const RefinedMesh refined = refine_mesh(topology, scheme, control, levels);
@@ -71,6 +81,7 @@ inline SurfaceMeshErrors compare_surface_mesh(const Topology& topology, const Sc
   for (Index v = 0; v < surface.vertex_count(); ++v) {
     grow(errors.points, (surface.points.row(v) - points.row(partner[v])).norm() / size);
   }
+  std::deque<Attribute> limits;
   std::vector<std::pair<const Attribute*, const Attribute*>> at_corners;
   std::size_t place = 0;
   for (const Attribute& theirs : refined.mesh.attributes) {
@@ -79,10 +90,11 @@ inline SurfaceMeshErrors compare_surface_mesh(const Topology& topology, const Sc
     EXPECT_EQ(ours.name, theirs.name);
     EXPECT_EQ(ours.per_corner(), theirs.per_corner());
     if (theirs.per_corner()) {
-      at_corners.emplace_back(&ours, &theirs);
+      limits.push_back(corner_limit(refined.topology, last, theirs));
+      at_corners.emplace_back(&ours, &limits.back());
       continue;
     }
-    const Values expected = limit.apply(theirs.values);
+    const Values expected = theirs.carry == CarryRule::Midpoint ? theirs.values : limit.apply(theirs.values);
     for (Index v = 0; v < surface.vertex_count(); ++v) {
       grow(errors.attributes, (ours.values.row(v) - expected.row(partner[v])).norm());
     }

@@ -118,6 +118,35 @@ TEST(SurfaceMesh, IsTheRefinedMeshUnderOtherRulesToo) {
   expect_refined_limit(test::with_random_tags(with_everything(test::random_hull(30, 2)), 3), scheme, {1, 3});
 }
 
+TEST(SurfaceMesh, IsTheRefinedMeshUnderEveryFaceVaryingRule) {
+  for (const test::NamedMesh& sample : test::sample_meshes()) {
+    if (sample.name.find("dihedron") != std::string::npos) continue;  // no normals at valence 2
+    const Mesh mesh = with_everything(sample.mesh);
+    for (int rule = 0; rule < 5; ++rule) {
+      SCOPED_TRACE(sample.name + ", rule " + std::to_string(rule));
+      Scheme scheme;
+      scheme.face_varying = static_cast<FaceVaryingRule>(rule);
+      scheme.boundary = rule % 2 == 0 ? BoundaryRule::EdgeOnly : BoundaryRule::None;
+      expect_refined_limit(mesh, scheme, {0, 1, 2});
+      scheme.kind = SchemeKind::Loop;
+      if (all_triangles(mesh)) expect_refined_limit(mesh, scheme, {0, 2});
+    }
+  }
+}
+
+TEST(SurfaceMesh, IsTheRefinedMeshForLinearValues) {
+  for (const test::NamedMesh& sample : test::sample_meshes()) {
+    if (sample.name.find("dihedron") != std::string::npos) continue;
+    SCOPED_TRACE(sample.name);
+    Mesh mesh = with_everything(sample.mesh);
+    mesh.attributes[0].carry = CarryRule::Midpoint;
+    Scheme scheme;
+    expect_refined_limit(mesh, scheme, {0, 1, 3});
+    scheme.kind = SchemeKind::Loop;
+    if (all_triangles(mesh)) expect_refined_limit(mesh, scheme, {0, 1, 3});
+  }
+}
+
 TEST(SurfaceMesh, IsTheRefinedMeshUnderTheButterflies) {
   for (const unsigned seed : {0U, 1U, 2U}) {
     Mesh mesh = with_everything(test::jittered(test::triangle_torus(7, 5), 0.02, 4));

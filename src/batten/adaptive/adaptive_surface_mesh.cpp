@@ -8,11 +8,14 @@
 
 #include "batten/adaptive/butterfly_points.h"
 #include "batten/error.h"
+#include "batten/limit/limit_matrix.h"
 #include "batten/mesh/checked_values.h"
 #include "batten/parallel/parallel.h"
 #include "batten/patch/surface_patches.h"
 #include "batten/progress.h"
+#include "batten/refine/face_varying.h"
 #include "batten/refine/refined_mesh.h"
+#include "batten/tessellate/linear_in_face.h"
 
 namespace batten {
 
@@ -82,25 +85,24 @@ BoundaryPlace boundary_place(const Topology& base, Index face, const std::array<
   return {};
 }
 
-/// Values at the corners of the base, linear within its faces, at the corners of the result.
+/// Fills `values`, a row for each corner of the result that is listed.
+using CornerValues = std::function<void(const Buffer<std::size_t>& corners, Eigen::Ref<Values> values)>;
+
+/// Values at the corners of the base, and those that values_of gives inside its faces and edges, at the corners of the
+/// result.
 class CarriedCorners {
  public:
   CarriedCorners(const Topology& base, const Attribute& attribute, const AdaptiveMesh& result)
       : base_(base), attribute_(attribute), result_(result), at_vertex_(result.places.size(), {-1, -1}) {}
 
-  Attribute carry() {
+  Attribute carry(const CornerValues& values_of) {
     const auto size = static_cast<std::size_t>(result_.mesh.face_size(0));
     Buffer<Index> rows(result_.mesh.face_vertices.size());
     for (std::size_t c = 0; c < rows.size(); ++c) rows[c] = row_of(c, result_.base_faces[c / size]);
     const Eigen::Index given = attribute_.values.rows();
     Values values(given + static_cast<Eigen::Index>(new_rows_.size()), attribute_.values.cols());
     values.topRows(given) = attribute_.values;
-    parallel_for(static_cast<std::ptrdiff_t>(new_rows_.size()), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-      for (std::ptrdiff_t i = begin; i < end; ++i) {
-        const std::size_t corner = new_rows_[i];
-        values.row(given + i) = value(result_.base_faces[corner / size], result_.corner_parameters[corner]);
-      }
-    });
+    values_of(new_rows_, values.bottomRows(static_cast<Eigen::Index>(new_rows_.size())));
     return {attribute_.name, std::move(values), std::move(rows)};
   }
 
@@ -133,20 +135,60 @@ class CarriedCorners {
     return row;
   }
 
-  Eigen::RowVectorXd value(Index face, const std::array<double, 2>& at) const {
-    const Index* rows = &attribute_.corner_rows[base_.face_begin(face)];
-    const auto corner = [&](Index k) { return attribute_.values.row(rows[k]); };
-    const auto [u, v] = at;
-    if (base_.face_size(face) == 3) return (1.0 - u - v) * corner(0) + u * corner(1) + v * corner(2);
-    return (1.0 - v) * ((1.0 - u) * corner(0) + u * corner(1)) + v * (u * corner(2) + (1.0 - u) * corner(3));
-  }
-
   const Topology& base_;
   const Attribute& attribute_;
   const AdaptiveMesh& result_;
   Buffer<std::array<Index, 2>> at_vertex_;
   Buffer<std::size_t> new_rows_;  ///< the corner of the result where each was found
 };
+
+Attribute at_base(const SurfacePatches& patches, const Attribute& attribute) {
+  if (attribute.corner_rows.size() != static_cast<std::size_t>(patches.topology().half_edge_count())) {
+    throw Error(ErrorCode::BadShape, "attribute '" + attribute.name + "' must have one row number per corner");
+  }
+  const bool refined = patches.has_first_step();
+  return refined ? refine_at_corners(patches.topology(), patches.scheme().kind, attribute) : attribute;
+}
+
+/// Linear within the faces of the base.
+Attribute carry_linearly(const SurfacePatches& patches, const Attribute& attribute, const AdaptiveMesh& result) {
+  const Attribute known = at_base(patches, attribute);
+  const Topology& base = patches.base();
+  const auto size = static_cast<std::size_t>(result.mesh.face_size(0));
+  const auto linear = [&](const Buffer<std::size_t>& corners, Eigen::Ref<Values> values) {
+    parallel_for(values.rows(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+      for (std::ptrdiff_t i = begin; i < end; ++i) {
+        const Index face = result.base_faces[corners[i] / size];
+        const Index* rows = &known.corner_rows[base.face_begin(face)];
+        const auto corner = [&](Index k) { return known.values.row(rows[k]); };
+        const std::array<double, 2>& at = result.corner_parameters[corners[i]];
+        set_linear(base.face_size(face) == 4, at[0], at[1], corner, values.row(i));
+      }
+    });
+  };
+  return CarriedCorners(base, known, result).carry(linear);
+}
+
+/// On the surface that the values make themselves.
+Attribute carry_smoothly(const SurfacePatches& patches, const Attribute& attribute, const AdaptiveMesh& result) {
+  const FaceVaryingSurface surface = face_varying_surface(patches.topology(), patches.scheme(), attribute);
+  const SurfacePatches value_patches(surface.topology, surface.scheme);
+  const bool refined = value_patches.has_first_step();
+  const FaceVaryingSurface base = refined ? surface.refined() : surface;
+  Attribute known = base.attribute(attribute.name);
+  known.values = LimitMatrix(base.topology, base.scheme).apply(base.values);
+  const auto size = static_cast<std::size_t>(result.mesh.face_size(0));
+  const PointsAt points_at = spline_points_at(value_patches);
+  const auto limit = [&](const Buffer<std::size_t>& corners, Eigen::Ref<Values> values) {
+    std::vector<SurfacePlace> places;
+    for (const std::size_t corner : corners) {
+      const std::array<double, 2>& at = result.corner_parameters[corner];
+      places.push_back({result.base_faces[corner / size], at[0], at[1]});
+    }
+    values = values_at(points_at, places, surface.values);
+  };
+  return CarriedCorners(patches.base(), known, result).carry(limit);
+}
 
 template <typename T>
 void permute(const Buffer<Index>& order, std::size_t width, Buffer<T>& numbers) {
@@ -187,12 +229,20 @@ void carry_groups(const SurfacePatches& patches, const Mesh& control, AdaptiveMe
   }
 }
 
-Attribute at_base(const SurfacePatches& patches, const Attribute& attribute) {
-  if (attribute.corner_rows.size() != static_cast<std::size_t>(patches.topology().half_edge_count())) {
-    throw Error(ErrorCode::BadShape, "attribute '" + attribute.name + "' must have one row number per corner");
-  }
+/// Linear within the faces of the base, from the control vertices.
+Values midpoints_at(const SurfacePatches& patches, const std::vector<SurfacePlace>& places, const Values& control) {
   const bool refined = patches.has_first_step();
-  return refined ? refine_at_corners(patches.topology(), patches.scheme().kind, attribute) : attribute;
+  const Values known = refined ? refine_midpoints(patches.topology(), patches.scheme().kind, control) : control;
+  const Topology& base = patches.base();
+  Values values(static_cast<Eigen::Index>(places.size()), control.cols());
+  parallel_for(values.rows(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (std::ptrdiff_t i = begin; i < end; ++i) {
+      const SurfacePlace& place = places[i];
+      const auto corner = [&](Index k) { return known.row(base.origin(base.face_begin(place.face) + k)); };
+      set_linear(base.face_size(place.face) == 4, place.u, place.v, corner, values.row(i));
+    }
+  });
+  return values;
 }
 
 }  // namespace
@@ -213,10 +263,15 @@ AdaptiveMesh adaptive_surface_mesh(const Topology& topology, const Scheme& schem
     if (attribute.name == "normal") continue;  // those of the surface are there
     if (!attribute.per_corner()) {
       require_finite(attribute.values, ("attribute '" + attribute.name + "'").c_str());
-      result.mesh.attributes.push_back({attribute.name, values_at(points_at, result.places, attribute.values), {}});
+      const bool linear = attribute.carry == CarryRule::Midpoint;
+      result.mesh.attributes.push_back({attribute.name,
+                                        linear ? midpoints_at(patches, result.places, attribute.values)
+                                               : values_at(points_at, result.places, attribute.values),
+                                        {}});
     } else if (result.mesh.face_count() > 0) {
-      const Attribute base_attribute = at_base(patches, attribute);
-      result.mesh.attributes.push_back(CarriedCorners(patches.base(), base_attribute, result).carry());
+      const bool linear = scheme.has_linear_corners();
+      result.mesh.attributes.push_back(linear ? carry_linearly(patches, attribute, result)
+                                              : carry_smoothly(patches, attribute, result));
     }
   }
   report_progress(progress, 1.0);

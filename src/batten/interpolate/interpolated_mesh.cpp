@@ -18,14 +18,14 @@ constexpr double kSolved = 0.9;  // of the time
 
 /// The mesh refined once without its values at vertices: those are the caller's. `step` has what refines the rest.
 template <typename Step>
-Mesh refined_labels(const Topology& child, const Step& step, Mesh mesh) {
+Mesh refined_labels(const Topology& child, const Scheme& scheme, const Step& step, Mesh mesh) {
   Mesh refined = mesh_from_topology(child);
   refined.groups = step.groups(std::move(mesh.groups));
   refined.material_libraries = std::move(mesh.material_libraries);
   refined.crease_method = mesh.crease_method;
   refined.triangle_rule = mesh.triangle_rule;
   for (Attribute& attribute : mesh.attributes) {
-    if (attribute.per_corner()) attribute = step.at_corners(attribute);
+    if (attribute.per_corner()) attribute = step.at_corners(scheme, attribute);
   }
   refined.attributes = std::move(mesh.attributes);
   return refined;
@@ -36,7 +36,9 @@ struct WholeStep {
   const Topology& topology;
   SchemeKind kind;
 
-  Attribute at_corners(const Attribute& attribute) const { return refine_at_corners(topology, kind, attribute); }
+  Attribute at_corners(const Scheme& scheme, const Attribute& attribute) const {
+    return refine_at_corners(topology, scheme, attribute);
+  }
   std::vector<Group> groups(std::vector<Group> given) const { return refine_groups(topology, kind, std::move(given)); }
 };
 
@@ -57,6 +59,15 @@ void make_ordinary(const Scheme& scheme, std::vector<Interpolant>& results, cons
   }
 }
 
+/// Values that were not solved for, on what was refined once.
+Values refined_once(const Interpolator& interpolator, const PartRefinement* part, const Attribute& attribute) {
+  const Topology& topology = interpolator.topology();
+  const Scheme& scheme = interpolator.scheme();
+  const Values all = attribute.carry == CarryRule::Midpoint ? refine_midpoints(topology, scheme.kind, attribute.values)
+                                                            : Refinement(topology, scheme).apply(attribute.values);
+  return part != nullptr ? part->choose(attribute.values, all) : all;
+}
+
 }  // namespace
 
 bool InterpolatedMesh::converged() const {
@@ -64,24 +75,37 @@ bool InterpolatedMesh::converged() const {
 }
 
 InterpolatedMesh interpolate(const Interpolator& interpolator, Mesh mesh, const Progress& progress) {
+  return interpolate(interpolator, std::move(mesh), AttributeRule::Interpolated, progress);
+}
+
+InterpolatedMesh interpolate(const Interpolator& interpolator, Mesh mesh, AttributeRule rule,
+                             const Progress& progress) {
+  const bool solves = rule == AttributeRule::Interpolated;
   std::erase_if(mesh.attributes, [](const Attribute& attribute) { return attribute.name == "normal"; });
   std::vector<Targets> sets{{"points", mesh.points}};
   for (const Attribute& attribute : mesh.attributes) {
-    if (!attribute.per_corner()) sets.push_back({attribute.name, attribute.values});
+    if (!attribute.per_corner() && solves) sets.push_back({attribute.name, attribute.values});
   }
   std::vector<Interpolant> results = interpolator.solve_together(sets, progress_within(progress, 0.0, kSolved));
   make_ordinary(interpolator.scheme(), results, progress_within(progress, kSolved, 1.0));
   InterpolatedMesh result{{}, results.front().topology, results.front().scheme, {}, false};
   result.is_refined = result.topology.vertex_count() != interpolator.topology().vertex_count();
   const std::shared_ptr<const PartRefinement> part = results.front().part;
-  const WholeStep whole{interpolator.topology(), interpolator.scheme().kind};
+  const Scheme& scheme = interpolator.scheme();
+  const WholeStep whole{interpolator.topology(), scheme.kind};
   result.mesh = !result.is_refined ? std::move(mesh)
-                : part != nullptr  ? refined_labels(result.topology, *part, std::move(mesh))
-                                   : refined_labels(result.topology, whole, std::move(mesh));
+                : part != nullptr  ? refined_labels(result.topology, scheme, *part, std::move(mesh))
+                                   : refined_labels(result.topology, scheme, whole, std::move(mesh));
   auto solved = results.begin();
   result.mesh.points = solved->control;
   for (Attribute& attribute : result.mesh.attributes) {
-    if (!attribute.per_corner()) attribute.values = std::move((++solved)->control);
+    if (attribute.per_corner()) continue;
+    attribute.carry = rule == AttributeRule::Midpoint ? CarryRule::Midpoint : CarryRule::Scheme;
+    if (solves) {
+      attribute.values = std::move((++solved)->control);
+    } else if (result.is_refined) {
+      attribute.values = refined_once(interpolator, part.get(), attribute);
+    }
   }
   for (Interpolant& one : results) result.reports.push_back(std::move(one.report));
   state_scheme(result.scheme, result.mesh);

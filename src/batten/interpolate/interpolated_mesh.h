@@ -2,6 +2,7 @@
 #pragma once
 #include <vector>
 
+#include "batten/interpolate/attributes.h"
 #include "batten/interpolate/interpolator.h"
 #include "batten/mesh/mesh.h"
 
@@ -24,6 +25,12 @@ struct InterpolatedMesh {
 /// at corners (texture coordinates), groups, materials. Normals are dropped: control points have none.
 /// mesh: of the interpolator's topology. Throws what Interpolator::solve does, and names the attribute.
 InterpolatedMesh interpolate(const Interpolator& interpolator, Mesh mesh, const Progress& progress = {});
+
+/// The same, but the attributes at the vertices follow `rule`. Only under AttributeRule::Interpolated are they solved
+/// for and have reports. Otherwise they keep their values, as control values or, under Midpoint, as values of the
+/// surface, and where a component is refined they are refined so.
+InterpolatedMesh interpolate(const Interpolator& interpolator, Mesh mesh, AttributeRule rule,
+                             const Progress& progress = {});
 
 /// Once, by the scheme that the mesh asks for (choose_scheme()). Throws what Topology and Interpolator do.
 InterpolatedMesh interpolate(const Mesh& mesh, const InterpolateOptions& options = {}, const Progress& progress = {});

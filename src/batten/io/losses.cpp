@@ -21,7 +21,7 @@ struct Place {
   const char* format;
   bool faces;
   bool polygons;  ///< and vertices without a face
-  bool rules;     ///< boundary rule, crease method, triangle rule, creases, corners, holes
+  bool rules;     ///< boundary rule, crease method, triangle and face-varying rules, creases, corners, holes
   bool scheme;
   Kept normals;
   Kept uvs;
@@ -101,6 +101,7 @@ class Losses {
     // USD has no Chaikin creases; it is written only where they make no difference.
     add(!kept && mesh_.crease_method == CreaseMethod::Chaikin, "crease method");
     add(!kept && mesh_.triangle_rule == TriangleRule::Smooth, "triangle rule");
+    add(!kept && mesh_.face_varying.value_or(FaceVaryingRule::All) != FaceVaryingRule::All, "face-varying rule");
   }
 
   void values(const Attribute& attribute) {

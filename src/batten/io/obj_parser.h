@@ -63,6 +63,7 @@ struct ObjPiece {
   std::optional<BoundaryRule> boundary;
   std::optional<CreaseMethod> crease_method;
   std::optional<TriangleRule> triangle_rule;
+  std::optional<FaceVaryingRule> face_varying;
   std::array<Skipped, kObjSkips> skipped;  ///< for each ObjSkip
 };
 

@@ -175,6 +175,7 @@ void join_tags(Pieces& pieces, const std::vector<Index>& first_face, Mesh& mesh)
     keep_last(mesh.boundary, piece.boundary);
     keep_last(mesh.crease_method, piece.crease_method);
     keep_last(mesh.triangle_rule, piece.triangle_rule);
+    keep_last(mesh.face_varying, piece.face_varying);
   }
   check.finish();
 }

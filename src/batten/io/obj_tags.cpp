@@ -97,6 +97,15 @@ void read_boundary(Scanner& scanner, const TagCounts& counts, ObjPiece& piece) {
   piece.boundary = kRules[rule];
 }
 
+/// The rules stand in OpenSubdiv's order.
+void read_face_varying(Scanner& scanner, const TagCounts& counts, ObjPiece& piece) {
+  const char* form = "facevaryinginterpolateboundary 1/0/0 0|1|2|3|4|5";
+  require_counts(scanner, counts.integers == 1 && counts.numbers == 0 && counts.words == 0, form);
+  const Index rule = read_elements(scanner, 1)[0];
+  require_counts(scanner, rule <= static_cast<Index>(FaceVaryingRule::All), form);
+  piece.face_varying = static_cast<FaceVaryingRule>(rule);
+}
+
 /// Reads one of two words. "uniform" and "normal" are OpenSubdiv's and RenderMan's names of the plain rule.
 bool read_choice(Scanner& scanner, const TagCounts& counts, const char* form, std::string_view plain,
                  std::string_view other) {
@@ -111,7 +120,7 @@ bool read_choice(Scanner& scanner, const TagCounts& counts, const char* form, st
 void parse_obj_tag(Scanner& scanner, ObjPiece& piece) {
   const std::string_view name = scanner.word();
   if (name != "crease" && name != "corner" && name != "hole" && name != "interpolateboundary" &&
-      name != "creasemethod" && name != "smoothtriangles") {
+      name != "facevaryinginterpolateboundary" && name != "creasemethod" && name != "smoothtriangles") {
     return;
   }
   const TagCounts counts = read_counts(scanner);
@@ -123,6 +132,8 @@ void parse_obj_tag(Scanner& scanner, ObjPiece& piece) {
     read_holes(scanner, counts, piece);
   } else if (name == "interpolateboundary") {
     read_boundary(scanner, counts, piece);
+  } else if (name == "facevaryinginterpolateboundary") {
+    read_face_varying(scanner, counts, piece);
   } else if (name == "creasemethod") {
     const bool chaikin = read_choice(scanner, counts, "creasemethod 0/0/1 normal|chaikin", "normal", "chaikin");
     piece.crease_method = chaikin ? CreaseMethod::Chaikin : CreaseMethod::Uniform;

@@ -42,6 +42,9 @@ void put_settings(TextBuffer& out, const Mesh& mesh) {
     const bool smooth = *mesh.triangle_rule == TriangleRule::Smooth;
     out.put("t smoothtriangles 0/0/1 ").put(std::string_view(smooth ? "smooth" : "catmark")).put('\n');
   }
+  if (mesh.face_varying) {
+    out.put("t facevaryinginterpolateboundary 1/0/0 ").put(static_cast<Index>(*mesh.face_varying)).put('\n');
+  }
 }
 
 void write_tags(OutputFile& file, const Mesh& mesh) {

@@ -24,6 +24,10 @@ void require_uniform_creases(const std::string& name, const Mesh& mesh) {
               name + ": USD has no Chaikin creases, and this surface depends on them; take uniform creases, or obj");
 }
 
+/// USD's names of the FaceVaryingRules.
+constexpr const char* kLinearInterpolations[] = {"none",         "cornersOnly", "cornersPlus1",
+                                                 "cornersPlus2", "boundaries",  "all"};
+
 class UsdaMesh {
  public:
   UsdaMesh(OutputFile& file, const Mesh& mesh, UpAxis up)
@@ -119,7 +123,8 @@ class UsdaMesh {
     out_.line(std::string("uniform token subdivisionScheme = ") +
               (kind == SchemeKind::Loop ? "\"loop\"" : "\"catmullClark\""));
     out_.line("token interpolateBoundary = \"" + rule + "\"");
-    out_.line("token faceVaryingLinearInterpolation = \"all\"");
+    const auto linear = static_cast<std::size_t>(mesh_.face_varying.value_or(FaceVaryingRule::All));
+    out_.line(std::string("token faceVaryingLinearInterpolation = \"") + kLinearInterpolations[linear] + "\"");
     out_.line(std::string("token triangleSubdivisionRule = ") + (smooth ? "\"smooth\"" : "\"catmullClark\""));
   }
 
@@ -232,7 +237,7 @@ class UsdaMesh {
 
 bool is_usda_polygonal(const Mesh& mesh) {
   if (mesh.scheme && is_interpolating(*mesh.scheme)) return true;
-  const bool has_word = mesh.scheme || mesh.boundary || mesh.crease_method || mesh.triangle_rule ||
+  const bool has_word = mesh.scheme || mesh.boundary || mesh.crease_method || mesh.triangle_rule || mesh.face_varying ||
                         !mesh.creases.empty() || !mesh.corners.empty() || !mesh.holes.empty();
   return !has_word && corner_list(mesh, "normal").attribute != nullptr;
 }

@@ -31,6 +31,8 @@ struct Attribute {
   std::string name;
   Values values;
   Buffer<Index> corner_rows;
+  /// At vertices, what refinement does with them; at corners Mesh::face_varying says it. No file holds it.
+  CarryRule carry = CarryRule::Scheme;
 
   bool per_corner() const { return !corner_rows.empty(); }
 };
@@ -58,6 +60,7 @@ struct Mesh {
   std::optional<BoundaryRule> boundary;
   std::optional<CreaseMethod> crease_method;
   std::optional<TriangleRule> triangle_rule;
+  std::optional<FaceVaryingRule> face_varying;
 
   Index vertex_count() const { return static_cast<Index>(points.rows()); }
   Index face_count() const { return static_cast<Index>(face_offsets.size()) - 1; }

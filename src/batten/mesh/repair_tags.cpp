@@ -190,6 +190,7 @@ void carry_over(const Draft& draft, RepairResult& result, RepairLog& log) {
   mesh.boundary = input.boundary;
   mesh.crease_method = input.crease_method;
   mesh.triangle_rule = input.triangle_rule;
+  mesh.face_varying = input.face_varying;
 }
 
 }  // namespace batten

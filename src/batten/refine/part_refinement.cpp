@@ -108,8 +108,22 @@ Values PartRefinement::choose(ConstValuesRef before, ConstValuesRef after) const
   return chosen;
 }
 
-Attribute PartRefinement::at_corners(const Attribute& attribute) const {
-  const Attribute all = refine_at_corners(parent_, SchemeKind::CatmullClark, attribute);
+namespace {
+
+/// Steps that are not linear change the attribute's own rows, which faces that are left as they are still have.
+void put_own_rows_first(const Attribute& attribute, Attribute& all) {
+  Values values(attribute.values.rows() + all.values.rows(), attribute.values.cols());
+  values << attribute.values, all.values;
+  all.values = std::move(values);
+  const auto own = static_cast<Index>(attribute.values.rows());
+  for (Index& row : all.corner_rows) row = row < 0 ? row : row + own;
+}
+
+}  // namespace
+
+Attribute PartRefinement::at_corners(const Scheme& scheme, const Attribute& attribute) const {
+  Attribute all = refine_at_corners(parent_, scheme, attribute);
+  if (!scheme.has_linear_corners()) put_own_rows_first(attribute, all);
   Attribute part{attribute.name, Values(), Buffer<Index>()};
   for (Index f = 0; f < parent_.face_count(); ++f) {
     const bool refined = is_refined_[f] != 0;

@@ -4,6 +4,7 @@
 
 #include "batten/mesh/mesh.h"
 #include "batten/mesh/topology.h"
+#include "batten/scheme/scheme.h"
 
 namespace batten {
 
@@ -24,9 +25,9 @@ class PartRefinement {
   /// before: V-by-k; after: one row for each vertex of the child. Throws Error(BadShape).
   Values choose(ConstValuesRef before, ConstValuesRef after) const;
 
-  /// The attribute at corners, refined as refine_at_corners does where the step acts; without rows that no corner has
-  /// there. Throws Error(BadShape).
-  Attribute at_corners(const Attribute& attribute) const;
+  /// The attribute at corners, refined as refine_at_corners does under the scheme where the step acts; without rows
+  /// that no corner has there, except the attribute's own, which come first. Throws what refine_at_corners does.
+  Attribute at_corners(const Scheme& scheme, const Attribute& attribute) const;
 
   /// Groups begin where the faces do that stand for their first face.
   std::vector<Group> groups(std::vector<Group> groups) const;

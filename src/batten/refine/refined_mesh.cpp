@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "batten/error.h"
 #include "batten/mesh/checked_values.h"
 #include "batten/parallel/parallel.h"
 #include "batten/progress.h"
+#include "batten/refine/face_varying.h"
+#include "batten/refine/refined_values.h"
 #include "batten/refine/refinement.h"
 
 namespace batten {
@@ -116,6 +119,39 @@ Mesh mesh_of(const Topology& topology, const Scheme& scheme, const Mesh& control
   return mesh;
 }
 
+/// An attribute of the mesh, level by level.
+class CarriedAttribute {
+ public:
+  CarriedAttribute(const Topology& topology, const Scheme& scheme, Attribute attribute, int levels)
+      : attribute_(std::move(attribute)) {
+    if (levels == 0) return;
+    if (!attribute_.per_corner()) {
+      require_finite(attribute_.values, ("attribute '" + attribute_.name + "'").c_str());
+    } else if (!scheme.has_linear_corners()) {
+      surface_ = face_varying_surface(topology, scheme, attribute_);
+    }
+  }
+
+  void refine(const Refinement& step, const Topology& parent, const Progress& progress) {
+    const SchemeKind kind = step.scheme().kind;
+    if (surface_) {
+      surface_ = surface_->refined(progress);
+    } else if (attribute_.per_corner()) {
+      attribute_ = refine_at_corners(parent, kind, attribute_);
+    } else if (attribute_.carry == CarryRule::Midpoint) {
+      attribute_.values = refine_midpoints(parent, kind, attribute_.values, progress);
+    } else {
+      attribute_.values = step.apply(attribute_.values, progress);
+    }
+  }
+
+  Attribute take() { return surface_ ? surface_->attribute(attribute_.name) : std::move(attribute_); }
+
+ private:
+  Attribute attribute_;
+  std::optional<FaceVaryingSurface> surface_;  ///< of values at corners that are not linear
+};
+
 }  // namespace
 
 Attribute refine_at_corners(const Topology& topology, SchemeKind kind, const Attribute& attribute) {
@@ -144,6 +180,38 @@ Attribute refine_at_corners(const Topology& topology, SchemeKind kind, const Att
   return {attribute.name, step.take_values(), std::move(rows)};
 }
 
+Attribute refine_at_corners(const Topology& topology, const Scheme& scheme, const Attribute& attribute) {
+  if (scheme.has_linear_corners()) return refine_at_corners(topology, scheme.kind, attribute);
+  return face_varying_surface(topology, scheme, attribute).refined().attribute(attribute.name);
+}
+
+Values refine_midpoints(const Topology& topology, SchemeKind kind, ConstValuesRef values, const Progress& progress) {
+  require_vertex_rows(topology, values);
+  const Index vertices = topology.vertex_count();
+  const Index edges = topology.edge_count();
+  Values refined(refined_vertex_count(topology, kind), values.cols());
+  refined.topRows(vertices) = values;
+  parallel_for(
+      edges,
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        for (auto e = static_cast<Index>(begin); e < end; ++e) {
+          const Index h = topology.edge_half_edge(e);
+          refined.row(vertices + e) = 0.5 * (values.row(topology.origin(h)) + values.row(topology.destination(h)));
+        }
+      },
+      kDefaultBlock, progress);
+  if (kind != SchemeKind::CatmullClark) return refined;
+  parallel_for(topology.face_count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (auto f = static_cast<Index>(begin); f < end; ++f) {
+      auto mean = refined.row(vertices + edges + f);
+      mean.setZero();
+      for (Index h = topology.face_begin(f); h < topology.face_end(f); ++h) mean += values.row(topology.origin(h));
+      mean /= topology.face_size(f);
+    }
+  });
+  return refined;
+}
+
 std::vector<Group> refine_groups(const Topology& topology, SchemeKind kind, std::vector<Group> groups) {
   for (Group& group : groups) group.first_face = first_child(topology, kind, group.first_face);
   return groups;
@@ -153,31 +221,24 @@ RefinedMesh refine_mesh(const Topology& topology, const Scheme& scheme, const Me
                         const Progress& progress) {
   if (levels < 0) throw Error(ErrorCode::BadArgument, "levels must not be negative");
   Values points = control.points;
-  std::vector<Attribute> attributes;
-  for (const Attribute& attribute : control.attributes) {
-    if (attribute.name == "normal") continue;
-    if (levels > 0 && !attribute.per_corner())
-      require_finite(attribute.values, ("attribute '" + attribute.name + "'").c_str());
-    attributes.push_back(attribute);
-  }
   std::vector<Group> groups = control.groups;
   Topology current = with_surface_holes(topology, scheme);
+  std::vector<CarriedAttribute> carried;
+  for (const Attribute& attribute : control.attributes) {
+    if (attribute.name != "normal") carried.emplace_back(current, scheme, attribute, levels);
+  }
   Scheme step_scheme = scheme;
   for (int level = 0; level < levels; ++level) {
-    const LevelProgress parts(progress, levels - level, attributes.size() + 2);
+    const LevelProgress parts(progress, levels - level, carried.size() + 2);
     Refinement step(current, step_scheme, {}, parts(0));
     points = step.apply(points, parts(1));
-    for (std::size_t i = 0; i < attributes.size(); ++i) {
-      if (attributes[i].per_corner()) {
-        attributes[i] = refine_at_corners(current, scheme.kind, attributes[i]);
-      } else {
-        attributes[i].values = step.apply(attributes[i].values, parts(i + 2));
-      }
-    }
+    for (std::size_t i = 0; i < carried.size(); ++i) carried[i].refine(step, current, parts(i + 2));
     groups = refine_groups(current, scheme.kind, std::move(groups));
     current = step.child();
     step_scheme = scheme.after_first_step();
   }
+  std::vector<Attribute> attributes;
+  for (CarriedAttribute& attribute : carried) attributes.push_back(attribute.take());
   Mesh mesh = mesh_of(current, scheme, control, points, std::move(attributes), std::move(groups));
   return {current, std::move(mesh)};
 }

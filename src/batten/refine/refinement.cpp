@@ -80,6 +80,7 @@ Scheme choose_scheme(const Mesh& mesh) {
   scheme.boundary = mesh.boundary.value_or(scheme.boundary);
   scheme.crease_method = mesh.crease_method.value_or(scheme.crease_method);
   scheme.triangle_rule = mesh.triangle_rule.value_or(scheme.triangle_rule);
+  scheme.face_varying = mesh.face_varying.value_or(scheme.face_varying);
   return scheme;
 }
 
@@ -88,6 +89,7 @@ void state_scheme(const Scheme& scheme, Mesh& mesh) {
   mesh.boundary = scheme.boundary;
   if (!mesh.creases.empty()) mesh.crease_method = scheme.crease_method;
   if (scheme.triangle_rule == TriangleRule::Smooth) mesh.triangle_rule = scheme.triangle_rule;
+  if (!scheme.has_linear_corners()) mesh.face_varying = scheme.face_varying;
 }
 
 Buffer<std::uint8_t> surface_holes(const Topology& topology, const Scheme& scheme) {

@@ -19,6 +19,10 @@ struct Scheme {
   /// the ten-point stencil (1/2 - w, 1/8 + 2 w, -1/16 - w, w), 0 if not given.
   std::optional<double> tension = {};
   ButterflyBoundary butterfly_boundary = ButterflyBoundary::CreaseRules;  ///< for the two Butterflies only
+  FaceVaryingRule face_varying = FaceVaryingRule::All;                    ///< Catmull-Clark and Loop only
+
+  /// True if values at corners are linear within each face, as they always are under the Butterflies.
+  bool has_linear_corners() const { return face_varying == FaceVaryingRule::All || is_interpolating(kind); }
 
   /// The scheme of every level after the first.
   Scheme after_first_step() const {

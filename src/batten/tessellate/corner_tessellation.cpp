@@ -7,6 +7,7 @@
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
 #include "batten/tessellate/grid_faces.h"
+#include "batten/tessellate/linear_in_face.h"
 
 namespace batten {
 
@@ -76,12 +77,7 @@ void fill_values(const Topology& base, const TessellationLayout& layout, const C
       if (!numbering.owns(layout.locate(base, face, i, j))) continue;
       const double u = static_cast<double>(i) / layout.steps;
       const double v = static_cast<double>(j) / layout.steps;
-      auto row = values.row(numbering.vertex(face, i, j));
-      if (layout.quads) {
-        row = (1.0 - v) * ((1.0 - u) * corner(0) + u * corner(1)) + v * (u * corner(2) + (1.0 - u) * corner(3));
-      } else {
-        row = (1.0 - u - v) * corner(0) + u * corner(1) + v * corner(2);
-      }
+      set_linear(layout.quads, u, v, corner, values.row(numbering.vertex(face, i, j)));
     }
   }
 }

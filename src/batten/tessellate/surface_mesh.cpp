@@ -10,6 +10,7 @@
 #include "batten/progress.h"
 #include "batten/refine/refinement.h"
 #include "batten/tessellate/butterfly_grids.h"
+#include "batten/tessellate/face_varying_limit.h"
 #include "batten/tessellate/side_normals.h"
 #include "batten/tessellate/tessellator.h"
 
@@ -80,7 +81,12 @@ Mesh limit_mesh(const Topology& topology, const Scheme& scheme, const Mesh& cont
     if (is_left_out(attribute, mesh)) continue;
     if (!attribute.per_corner()) {
       require_finite(attribute.values, ("attribute '" + attribute.name + "'").c_str());
-      mesh.attributes.push_back({attribute.name, limit.apply(attribute.values), {}});
+      const bool moves = attribute.carry == CarryRule::Scheme;
+      mesh.attributes.push_back({attribute.name, moves ? limit.apply(attribute.values) : attribute.values, {}});
+      continue;
+    }
+    if (!scheme.has_linear_corners()) {
+      mesh.attributes.push_back(face_varying_limit(shown, scheme, attribute, 0));
       continue;
     }
     if (attribute.corner_rows.size() != static_cast<std::size_t>(topology.half_edge_count())) {
@@ -125,6 +131,23 @@ Values corners_drawn(const Buffer<Index>& face_rank, Eigen::Index per_face, cons
         corners.middleRows(per_face * static_cast<Eigen::Index>(f), per_face);
   }
   return drawn.topRows(per_face * count);
+}
+
+/// An attribute of the control mesh on the tessellation.
+Attribute carried(const SurfacePatches& patches, const Tessellator& tessellator, const Attribute& attribute, int levels,
+                  const Progress& progress) {
+  const Scheme& scheme = patches.scheme();
+  if (attribute.per_corner()) {
+    if (scheme.has_linear_corners()) return tessellator.at_corners(attribute);
+    return face_varying_limit(with_surface_holes(patches.topology(), scheme), scheme, attribute, levels, progress);
+  }
+  require_finite(attribute.values, ("attribute '" + attribute.name + "'").c_str());
+  if (attribute.carry == CarryRule::Midpoint) {
+    return {attribute.name, tessellator.midpoints(attribute.values, progress), {}};
+  }
+  Attribute result{attribute.name, Values(tessellator.vertex_count(), attribute.values.cols()), {}};
+  tessellator.limit<double>(attribute.values, numbers_of(result.values), {}, progress);
+  return result;
 }
 
 void fill_points(const SurfacePatches& patches, const Mesh& control, const Tessellator& tessellator,
@@ -178,14 +201,8 @@ Mesh surface_mesh(const Topology& topology, const Scheme& scheme, const Mesh& co
   double done = kFaces;
   for (const Attribute& attribute : control.attributes) {
     if (is_left_out(attribute, mesh)) continue;
-    if (attribute.per_corner()) {
-      mesh.attributes.push_back(tessellator.at_corners(attribute));
-    } else {
-      require_finite(attribute.values, ("attribute '" + attribute.name + "'").c_str());
-      mesh.attributes.push_back({attribute.name, Values(tessellator.vertex_count(), attribute.values.cols()), {}});
-      tessellator.limit<double>(attribute.values, numbers_of(mesh.attributes.back().values), {},
-                                progress_within(progress, done, done + share));
-    }
+    mesh.attributes.push_back(
+        carried(patches, tessellator, attribute, levels, progress_within(progress, done, done + share)));
     done += share;
     report_progress(progress, done);
   }

@@ -8,9 +8,9 @@ namespace batten {
 
 /// The vertices of a Tessellator of so many levels, in its order (tessellate/tessellator.h), on the limit surface:
 /// vertex i of the control mesh is vertex i. With 0 levels the faces are those of the control mesh. Attributes at the
-/// vertices follow the scheme as the points do; attributes at corners are interpolated linearly within their faces,
-/// where all of a face's corners have a row; a group has the children of its faces. Holes are left out, and so are the
-/// tags: these points are on the surface, they are not control points of it.
+/// vertices follow their CarryRule, by the scheme as the points do, or linearly; attributes at corners follow
+/// scheme.face_varying, where all of a face's corners have a row; a group has the children of its faces. Holes are left
+/// out, and so are the tags: these points are on the surface, they are not control points of it.
 ///
 /// "normal" holds the limit normals at the vertices (zero where there is none), and where creases give a vertex several
 /// also at the corners: rows of their own for the sides that differ. Normals of the control mesh are dropped.

@@ -17,6 +17,7 @@
 #include "batten/tessellate/butterfly_grids.h"
 #include "batten/tessellate/corner_tessellation.h"
 #include "batten/tessellate/grid_faces.h"
+#include "batten/tessellate/linear_values.h"
 #include "batten/tessellate/piece_grid.h"
 #include "batten/tessellate/tessellation_layout.h"
 
@@ -263,6 +264,14 @@ Attribute Tessellator::at_corners(const Attribute& attribute) const {
     return tessellate_corners(parts.base(), parts.layout, parts.face_rank, attribute);
   const Attribute stepped = refine_at_corners(parts.control(), parts.scheme().kind, attribute);
   return tessellate_corners(parts.base(), parts.layout, parts.face_rank, stepped);
+}
+
+Values Tessellator::midpoints(ConstValuesRef control, const Progress& progress) const {
+  const Parts& parts = *parts_;
+  require_vertex_rows(parts.control(), control);
+  if (!parts.patches.has_first_step()) return linear_values(parts.base(), parts.layout, control, progress);
+  const Values stepped = refine_midpoints(parts.control(), parts.scheme().kind, control);
+  return linear_values(parts.base(), parts.layout, stepped, progress);
 }
 
 template <typename Scalar>

@@ -52,6 +52,10 @@ class Tessellator {
   /// same values as refine_at_corners() gives level by level. Throws Error(BadShape, TooLarge).
   Attribute at_corners(const Attribute& attribute) const;
 
+  /// Values at the control vertices under CarryRule::Midpoint, V-by-k: a row a vertex. Throws Error(BadShape,
+  /// Cancelled).
+  Values midpoints(ConstValuesRef control, const Progress& progress = {}) const;
+
   /// The grid of a base face, for those who attach things to it: base() has its faces, steps() its side, vertex() its
   /// points, 0 <= i, j <= steps().
   const Topology& base() const;
