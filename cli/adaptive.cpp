@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <vector>
+
+#include "cli/attributes.h"
 #include "cli/job.h"
 #include "cli/picture.h"
 
@@ -50,7 +53,10 @@ int run_adaptive(const SubdivideArguments& arguments) {
   Job job("subdivide", common);
   const Mesh& mesh = job.mesh;
   const Scheme scheme = scheme_for(common, mesh);
+  require_values(common, mesh);
   const Topology topology = job.connect();
+  const Mesh given = arguments.picture.path.empty() ? Mesh() : mesh;
+  const std::vector<InterpolationReport> solved = prepare_values(topology, scheme, job);
   const double diagonal = bounding_diagonal(mesh.points);
   const AdaptiveOptions options = options_of(arguments, scheme, diagonal);
   const AdaptiveMesh result =
@@ -65,7 +71,7 @@ int run_adaptive(const SubdivideArguments& arguments) {
   }
   job.write(result.mesh);
   if (!arguments.picture.path.empty()) {
-    draw_result(arguments, mesh, result.mesh, job);
+    draw_result(arguments, given, result.mesh, job);
     job.stages.finish("picture");
   }
   Table table;
@@ -81,6 +87,7 @@ int run_adaptive(const SubdivideArguments& arguments) {
     table.add("not certain",
               fmt::format("in {}, which --levels lets go no deeper", count_of(result.unmet, "cell", "cells")));
   }
+  add_value_rows(table, solved);
   job.print(table);
   job.report(
       {{"chord",
@@ -91,7 +98,9 @@ int run_adaptive(const SubdivideArguments& arguments) {
        {"cells_not_certain", result.unmet},
        {"scheme", scheme_json(scheme)},
        {"vertices", result.mesh.vertex_count()},
-       {"faces", result.mesh.face_count()}});
+       {"faces", result.mesh.face_count()},
+       {"attributes", solved_values_json(solved)}});
+  require_reached(solved);
   return 0;
 }
 

@@ -10,6 +10,7 @@
 #include "batten/expand/morph.h"
 #include "batten/expand/sharpen.h"
 #include "batten/expand/texture.h"
+#include "batten/interpolate/attributes.h"
 #include "batten/interpolate/interpolator.h"
 #include "batten/mesh/repair.h"
 #include "batten/render/render.h"
@@ -27,6 +28,8 @@ struct CommonArguments {
   std::optional<BoundaryRule> boundary;
   std::optional<CreaseMethod> crease_method;
   std::optional<TriangleRule> triangle_rule;
+  std::optional<FaceVaryingRule> face_varying;
+  std::optional<AttributeRule> attributes;  ///< not given: scheme, or for interpolate interpolated
   double alpha = 0.0;
   std::optional<double> tension;
   std::optional<ButterflyBoundary> butterfly_boundary;
@@ -49,7 +52,8 @@ enum class Coloring {
   Gaussian,   ///< Gaussian curvature of the limit surface
   Valence,    ///< edges at each vertex; at a boundary twice the faces, so that regular is the same
   Sharpness,  ///< of creases and corners
-  Zebra       ///< bands that the surface mirrors
+  Zebra,      ///< bands that the surface mirrors
+  Checker     ///< squares of the texture coordinates
 };
 
 /// The same for every verb that draws.

@@ -92,6 +92,7 @@ Scheme scheme_as_asked(const CommonArguments& arguments, const Mesh& mesh) {
   scheme.boundary = arguments.boundary.value_or(scheme.boundary);
   scheme.crease_method = arguments.crease_method.value_or(scheme.crease_method);
   scheme.triangle_rule = arguments.triangle_rule.value_or(scheme.triangle_rule);
+  scheme.face_varying = arguments.face_varying.value_or(scheme.face_varying);
   scheme.alpha = arguments.alpha;
   scheme.tension = arguments.tension;
   scheme.butterfly_boundary = arguments.butterfly_boundary.value_or(scheme.butterfly_boundary);
@@ -106,6 +107,7 @@ Scheme scheme_for(const CommonArguments& arguments, const Mesh& mesh) {
   const bool quads = scheme.kind == SchemeKind::CatmullClark;
   if (arguments.alpha > 0.0 && !quads) refuse("--alpha", "Catmull-Clark");
   if (arguments.triangle_rule && !quads) refuse("--triangles", "Catmull-Clark");
+  if (arguments.face_varying && is_interpolating(scheme.kind)) refuse("--face-varying", "Catmull-Clark and Loop");
   if (arguments.tension && !is_interpolating(scheme.kind)) refuse("--tension", "Butterfly and Modified Butterfly");
   if (arguments.butterfly_boundary && !is_interpolating(scheme.kind))
     refuse("--butterfly-boundary", "Butterfly and Modified Butterfly");

@@ -9,6 +9,7 @@
 #include "batten/io/io.h"
 #include "batten/mesh/vertex_fields.h"
 #include "batten/tessellate/surface_mesh.h"
+#include "cli/attributes.h"
 #include "cli/compare.h"
 #include "cli/job.h"
 #include "cli/picture.h"
@@ -267,7 +268,8 @@ InterpolatedMesh solve(const InterpolateArguments& arguments, const Topology& to
   job.stages.finish("build");
   try {
     ProgressBar bar("interpolating", quiet);
-    InterpolatedMesh result = interpolate(interpolator, std::move(job.mesh), bar.callback());
+    const AttributeRule rule = arguments.common.attributes.value_or(AttributeRule::Interpolated);
+    InterpolatedMesh result = interpolate(interpolator, std::move(job.mesh), rule, bar.callback());
     job.stages.finish("solve");
     return result;
   } catch (const Error& error) {
@@ -306,6 +308,7 @@ int run_interpolate(const InterpolateArguments& arguments) {
     throw Error(ErrorCode::BadArgument,
                 common.input + ": there are no faces, only points; a surface needs a mesh over its points");
   }
+  require_values(common, job.mesh);
   const Topology topology = job.connect();
   const Scheme scheme = scheme_for(common, job.mesh);
   const bool drawn = !arguments.picture.path.empty();

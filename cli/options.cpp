@@ -21,10 +21,19 @@ const Names<BoundaryRule> kBoundaries{{"none", BoundaryRule::None},
                                       {"edge-and-corner", BoundaryRule::EdgeAndCorner}};
 const Names<CreaseMethod> kCreases{{"uniform", CreaseMethod::Uniform}, {"chaikin", CreaseMethod::Chaikin}};
 const Names<TriangleRule> kTriangles{{"catmark", TriangleRule::Catmark}, {"smooth", TriangleRule::Smooth}};
+const Names<FaceVaryingRule> kFaceVarying{{"none", FaceVaryingRule::None},
+                                          {"corners-only", FaceVaryingRule::CornersOnly},
+                                          {"corners-plus1", FaceVaryingRule::CornersPlus1},
+                                          {"corners-plus2", FaceVaryingRule::CornersPlus2},
+                                          {"boundaries", FaceVaryingRule::Boundaries},
+                                          {"all", FaceVaryingRule::All}};
+const Names<AttributeRule> kAttributes{{"midpoint", AttributeRule::Midpoint},
+                                       {"scheme", AttributeRule::Scheme},
+                                       {"interpolated", AttributeRule::Interpolated}};
 const Names<Coloring> kColorings{{"error", Coloring::Error},     {"moved", Coloring::Moved},
                                  {"mean", Coloring::Mean},       {"gaussian", Coloring::Gaussian},
                                  {"valence", Coloring::Valence}, {"sharpness", Coloring::Sharpness},
-                                 {"zebra", Coloring::Zebra}};
+                                 {"zebra", Coloring::Zebra},     {"checker", Coloring::Checker}};
 const Names<View> kViews{{"front", View::Front}, {"back", View::Back}, {"left", View::Left},    {"right", View::Right},
                          {"top", View::Top},     {"iso", View::Iso},   {"bottom", View::Bottom}};
 
@@ -152,6 +161,16 @@ void add_surface(CLI::App& verb, CommonArguments& common) {
       ->option_text("DEGREES");
 }
 
+void add_attributes(CLI::App& verb, CommonArguments& common, const std::string& usual) {
+  add_choice(
+      verb, "--attributes", common.attributes, kAttributes,
+      "colours and other values at the vertices: interpolated is smooth and exact at the vertices, midpoint linear "
+      "between them, scheme smoothed as points are; " +
+          usual + " if not given");
+  add_choice(verb, "--face-varying", common.face_varying, kFaceVarying,
+             "what stays linear of texture coordinates at corners; overrules the file");
+}
+
 void add_picture_options(CLI::App& verb, PictureArguments& picture) {
   verb.add_option("--width", picture.width, "pixels")->check(whole_number(1, 16384))->capture_default_str();
   verb.add_option("--height", picture.height, "pixels; if not given, a frame of 4:3 or, for two panels, 8:3")
@@ -232,8 +251,8 @@ void set_run(CLI::App& verb, CommonArguments& common, int& status, const std::fu
       require_with(verb, kPictureOptions, {"--picture", "--gallery"});
     require_with(verb, {"--range"}, {"--color", "--color-moved", "--values", "--compare", "SCAN"});
     const CLI::Option* color = verb.get_option_no_throw("--color");
-    if (color != nullptr && color->count() > 0 && color->as<std::string>() == "zebra")
-      require_alone(verb, "--color zebra", {"--range"});
+    const std::string coloring = color != nullptr && color->count() > 0 ? color->as<std::string>() : "";
+    if (coloring == "zebra" || coloring == "checker") require_alone(verb, "--color " + coloring, {"--range"});
     if (is_given(verb, "--turntable")) require_picture_files(verb);
     if (is_given(verb, "--output") && verb.get_option_no_throw("--output-format") != nullptr) {
       const std::string format = file_format(common.output, common.output_format);

@@ -43,6 +43,9 @@ void add_input(CLI::App& verb, CommonArguments& common, const std::string& name 
 void add_common(CLI::App& verb, CommonArguments& common);
 void add_output(CLI::App& verb, CommonArguments& common);
 void add_surface(CLI::App& verb, CommonArguments& common);
+/// Adds what becomes of values at vertices and at corners, for verbs that refine them. `usual`: the word for the values
+/// at vertices where none is given.
+void add_attributes(CLI::App& verb, CommonArguments& common, const std::string& usual);
 void add_picture_options(CLI::App& verb, PictureArguments& picture);
 /// The colour bar's range.
 void add_range(CLI::App& verb, PictureArguments& picture);

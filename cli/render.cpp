@@ -5,6 +5,7 @@
 #include "batten/io/io.h"
 #include "batten/limit/limit_matrix.h"
 #include "batten/tessellate/surface_mesh.h"
+#include "cli/attributes.h"
 #include "cli/job.h"
 #include "cli/picture.h"
 
@@ -61,9 +62,11 @@ int run_render(const RenderArguments& arguments) {
   const CommonArguments& common = arguments.common;
   Job job("render", common);
   const Mesh& mesh = job.mesh;
+  require_values(common, mesh);
+  const Mesh given = arguments.picture.before_after ? mesh : Mesh();
   Subject subject;
   subject.control = &mesh;
-  subject.before = &mesh;
+  subject.before = &given;
   subject.before_caption = "the mesh as it is";
   subject.after_caption = "its surface";
   subject.flat = arguments.flat || mesh.face_count() == 0;
@@ -75,10 +78,12 @@ int run_render(const RenderArguments& arguments) {
   }
   if (!arguments.values.empty()) add_values(arguments, job, subject);
   std::string shown = "as it is";
+  std::vector<InterpolationReport> solved;
   if (!subject.flat) {
     const Topology topology = job.connect();
     subject.topology = topology;
     subject.scheme = scheme_for(common, mesh);
+    solved = prepare_values(topology, subject.scheme, job);
     subject.levels = arguments.levels >= 0 ? arguments.levels : picture_levels(topology);
     if (arguments.points) subject.markers = LimitMatrix(topology, subject.scheme).apply(mesh.points);
     shown = scheme_text(subject.scheme) + ", " + count_of(subject.levels, "level", "levels") + ", on the limit surface";
@@ -93,8 +98,10 @@ int run_render(const RenderArguments& arguments) {
   Table table;
   table.add("mesh", size_text(mesh));
   table.add("drawn", shown);
+  add_value_rows(table, solved);
   job.print(table);
-  job.report();
+  job.report({{"attributes", solved_values_json(solved)}});
+  require_reached(solved);
   return 0;
 }
 

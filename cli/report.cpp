@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "batten/output.h"
+#include "cli/text.h"
 
 namespace batten::cli {
 
@@ -40,6 +41,7 @@ nlohmann::ordered_json scheme_json(const Scheme& scheme) {
                               {"boundary", kBoundaries[static_cast<int>(scheme.boundary)]},
                               {"creases", scheme.crease_method == CreaseMethod::Chaikin ? "chaikin" : "uniform"},
                               {"triangles", scheme.triangle_rule == TriangleRule::Smooth ? "smooth" : "catmark"},
+                              {"face_varying", face_varying_word(scheme.face_varying)},
                               {"alpha", scheme.alpha}};
   if (is_interpolating(scheme.kind)) {
     const bool reflect = scheme.butterfly_boundary == ButterflyBoundary::Reflect;

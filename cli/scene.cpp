@@ -1,5 +1,6 @@
 /// The scene of a subject: its mesh or the surface of it, its colours, its numbers.
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "batten/error.h"
@@ -88,6 +89,36 @@ Values linear_colors(const Attribute* colors) {
   });
 }
 
+/// Throws Error(BadArgument) where there are none.
+const Attribute& texture_coordinates(const Mesh& mesh) {
+  const auto found = std::find_if(mesh.attributes.begin(), mesh.attributes.end(), [](const Attribute& attribute) {
+    return attribute.name == "uv" && attribute.values.cols() >= 2;
+  });
+  if (found != mesh.attributes.end()) return *found;
+  throw Error(ErrorCode::BadArgument,
+              "--color checker shows texture coordinates, but the mesh has none; choose another --color");
+}
+
+/// Eight squares a unit of the texture coordinates, by turns light and dark; grey without any. A vertex on a seam has
+/// the colour of one side. What lies on the line between two squares belongs to one of them, whatever its rounding.
+Values checker_colors(const Mesh& mesh) {
+  constexpr double kSquares = 8.0;
+  constexpr double kRounding = 1e-6;
+  const Attribute& uv = texture_coordinates(mesh);
+  Buffer<Index> rows(static_cast<std::size_t>(mesh.vertex_count()), -1);
+  for (std::size_t c = 0; c < uv.corner_rows.size(); ++c) rows[mesh.face_vertices[c]] = uv.corner_rows[c];
+  Attribute colors{"color", Values::Constant(mesh.vertex_count(), 3, 0.6), {}};
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const Index row = uv.per_corner() ? rows[v] : v;
+    if (row < 0) continue;
+    const auto square_at = [&](Index axis) { return std::floor(kSquares * uv.values(row, axis) + kRounding); };
+    const double square = square_at(0) + square_at(1);
+    const bool dark = std::fmod(square, 2.0) != 0.0;
+    colors.values.row(v) << (dark ? 0.15 : 0.93), (dark ? 0.35 : 0.91), (dark ? 0.6 : 0.86);
+  }
+  return linear_colors(&colors);
+}
+
 Topology topology_of(const Subject& subject, const Progress& progress) {
   return subject.topology ? *subject.topology : Topology(*subject.control, progress);
 }
@@ -113,10 +144,12 @@ Scene surface_scene(const Subject& subject, Coloring coloring, const Progress& p
   const int levels = levels_of(subject, topology);
   Mesh control;
   control.points = subject.control->points;
+  const bool checker = coloring == Coloring::Checker;
+  if (checker) control.attributes.push_back(texture_coordinates(*subject.control));
   if (const Attribute* colors = vertex_colors(*subject.control)) control.attributes.push_back(*colors);
   Scene scene;
   scene.surface = surface_mesh(topology, subject.scheme, control, levels, progress);
-  scene.colors = linear_colors(vertex_colors(scene.surface));
+  scene.colors = checker ? checker_colors(scene.surface) : linear_colors(vertex_colors(scene.surface));
   scene.normals = shading_normals(scene.surface);
   scene.surface.attributes.clear();
   if (is_field(coloring)) scene.scalars = surface_field(field_surface(subject, topology), field_of(coloring), levels);
@@ -130,7 +163,8 @@ Scene flat_scene(const Subject& subject, Coloring coloring, const Progress& prog
   }
   Scene scene;
   scene.surface = bare(*subject.control);
-  scene.colors = linear_colors(vertex_colors(*subject.control));
+  const Mesh& mesh = *subject.control;
+  scene.colors = coloring == Coloring::Checker ? checker_colors(mesh) : linear_colors(vertex_colors(mesh));
   if (is_field(coloring)) {
     scene.scalars = vertex_field(field_surface(subject, topology_of(subject, progress)), field_of(coloring));
   }

@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include <vector>
+
 #include "batten/refine/refined_mesh.h"
 #include "batten/tessellate/surface_mesh.h"
+#include "cli/attributes.h"
 #include "cli/job.h"
 #include "cli/picture.h"
 
@@ -13,7 +16,10 @@ int run_subdivide(const SubdivideArguments& arguments) {
   Job job("subdivide", common);
   const Mesh& mesh = job.mesh;
   const Scheme scheme = scheme_for(common, mesh);
+  require_values(common, mesh);
   const Topology topology = job.connect();
+  const Mesh given = arguments.picture.path.empty() ? Mesh() : mesh;
+  const std::vector<InterpolationReport> solved = prepare_values(topology, scheme, job);
   ProgressBar bar("refining", common.quiet);
   const Mesh refined = arguments.limit ? surface_mesh(topology, scheme, mesh, levels, bar.callback())
                                        : refine_mesh(topology, scheme, mesh, levels, bar.callback()).mesh;
@@ -23,7 +29,7 @@ int run_subdivide(const SubdivideArguments& arguments) {
     Subject subject;
     subject.control = &refined;
     subject.flat = true;
-    subject.before = &mesh;
+    subject.before = &given;
     subject.before_caption = "the mesh given";
     subject.after_caption = "refined " + (levels == 1 ? "once" : std::to_string(levels) + " times");
     draw(subject, arguments.picture, job);
@@ -34,12 +40,15 @@ int run_subdivide(const SubdivideArguments& arguments) {
   table.add("scheme", scheme_text(scheme));
   table.add("refined", fmt::format("{} to {}{}", count_of(levels, "level", "levels"), size_text(refined),
                                    arguments.limit ? ", on the limit surface" : ""));
+  add_value_rows(table, solved);
   job.print(table);
   job.report({{"levels", levels},
               {"limit", arguments.limit},
               {"scheme", scheme_json(scheme)},
               {"vertices", refined.vertex_count()},
-              {"faces", refined.face_count()}});
+              {"faces", refined.face_count()},
+              {"attributes", solved_values_json(solved)}});
+  require_reached(solved);
   return 0;
 }
 

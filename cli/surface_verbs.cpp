@@ -39,6 +39,7 @@ void add_interpolate(CLI::App& app, InterpolateArguments& arguments, int& status
   add_input(verb, arguments.common);
   add_output(verb, arguments.common);
   add_surface(verb, arguments.common);
+  add_attributes(verb, arguments.common, "interpolated");
   add_picture(verb, arguments.picture);
   add_coloring(verb, arguments.picture);
   InterpolateOptions& options = arguments.options;
@@ -73,6 +74,7 @@ void add_subdivide(CLI::App& app, SubdivideArguments& arguments, int& status) {
   add_input(verb, arguments.common);
   add_output(verb, arguments.common);
   add_surface(verb, arguments.common);
+  add_attributes(verb, arguments.common, "scheme");
   verb.add_option("--levels", arguments.levels, "how often, once if not given; with a bound: at most so often")
       ->check(whole_number(0, 16));
   verb.add_flag("--limit", arguments.limit, "then move the vertices to the limit surface, with its normals");
@@ -87,7 +89,7 @@ void add_subdivide(CLI::App& app, SubdivideArguments& arguments, int& status) {
     if (arguments.compare) {
       require_alone(verb, "--compare",
                     {"--output", "--scheme", "--tension", "--limit", "--chord", "--edge-length", "--angle", "--faces",
-                     "--max-faces"});
+                     "--max-faces", "--attributes", "--face-varying"});
       return run_compare_schemes(arguments);
     }
     require_with(verb, {"--faces", "--max-faces"}, {"--chord", "--edge-length", "--angle"});
@@ -105,6 +107,7 @@ void add_render(CLI::App& app, RenderArguments& arguments, int& status) {
   add_input(verb, arguments.common);
   add_output_file(verb, "-o,--output", arguments.common.output, "picture to write", {".png"})->required();
   add_surface(verb, arguments.common);
+  add_attributes(verb, arguments.common, "scheme");
   verb.add_option("--levels", arguments.levels, "refinement; as many as make it smooth, if not given")
       ->check(whole_number(0, 12));
   add_picture_options(verb, arguments.picture);
@@ -123,10 +126,12 @@ void add_render(CLI::App& app, RenderArguments& arguments, int& status) {
       throw UsageError("--targets does nothing without --color error");
     require_with(verb, {"--value"}, {"--values"});
     if (is_given(verb, "--values")) require_alone(verb, "--values", {"--color"});
+    if (arguments.picture.coloring != Coloring::Checker && is_given(verb, "--face-varying"))
+      throw UsageError("--face-varying does nothing without --color checker");
     if (arguments.flat) {
       require_alone(verb, "--flat",
                     {"--levels", "--scheme", "--boundary", "--creases", "--triangles", "--alpha", "--tension",
-                     "--butterfly-boundary", "--features"});
+                     "--butterfly-boundary", "--features", "--attributes", "--face-varying"});
     }
     return run_render(arguments);
   });

@@ -31,6 +31,11 @@ std::string mesh_text(const Topology& topology) {
   return text;
 }
 
+const char* face_varying_word(FaceVaryingRule rule) {
+  constexpr const char* kWords[] = {"none", "corners-only", "corners-plus1", "corners-plus2", "boundaries", "all"};
+  return kWords[static_cast<std::size_t>(rule)];
+}
+
 std::string scheme_text(const Scheme& scheme) {
   std::string text = scheme_name(scheme.kind);
   switch (scheme.boundary) {
@@ -46,6 +51,7 @@ std::string scheme_text(const Scheme& scheme) {
   }
   if (scheme.crease_method == CreaseMethod::Chaikin) text += ", Chaikin creases";
   if (scheme.triangle_rule == TriangleRule::Smooth) text += ", smooth triangles";
+  if (!scheme.has_linear_corners()) text += std::string(", face-varying ") + face_varying_word(scheme.face_varying);
   if (is_interpolating(scheme.kind)) {
     if (scheme.butterfly_boundary == ButterflyBoundary::Reflect) text += ", by reflection";
     if (scheme.tension) text += fmt::format(", tension {:g}", *scheme.tension);

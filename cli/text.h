@@ -19,6 +19,8 @@ std::string size_text(const Mesh& mesh);
 /// As size_text, and how many vertices have no face.
 std::string mesh_text(const Topology& topology);
 std::string scheme_text(const Scheme& scheme);
+/// "corners-only", as --face-varying takes it.
+const char* face_varying_word(FaceVaryingRule rule);
 /// "16 vertices of open edges lie on others: seams stay open; --repair welds them"
 std::string seams_text(Index count, bool repaired);
 /// "596 sharp edges of over 40 degrees"

@@ -59,14 +59,59 @@ Mesh pyramid() {
   return mesh;
 }
 
+/// Every second section is wide, and the sections stand unevenly, so that values carried in different ways differ.
+Mesh ring() {
+  constexpr Index kAround = 8;
+  constexpr Index kAcross = 5;
+  constexpr double kTurn = 2.0 * EIGEN_PI;
+  constexpr double kPalette[5][3] = {
+      {0.85, 0.2, 0.15}, {0.95, 0.8, 0.2}, {0.15, 0.55, 0.3}, {0.2, 0.4, 0.85}, {0.95, 0.95, 0.9}};
+  Mesh mesh = torus(kAround, kAcross);
+  Attribute color{"color", Values(mesh.vertex_count(), 3), {}};
+  for (Index i = 0; i < kAround; ++i) {
+    const double turn = kTurn * (i + (i % 2 == 0 ? 0.25 : 0.0)) / kAround;
+    const double radius = i % 2 == 0 ? 0.3 : 0.5;
+    for (Index j = 0; j < kAcross; ++j) {
+      const double angle = kTurn * j / kAcross;
+      const double distance = 1.0 + radius * std::cos(angle);
+      const Index v = i * kAcross + j;
+      mesh.points.row(v) << distance * std::cos(turn), distance * std::sin(turn), radius * std::sin(angle);
+      for (int c = 0; c < 3; ++c) color.values(v, c) = kPalette[(2 * i + 3 * j) % 5][c];
+    }
+  }
+  // Face (i, j) has the rows (i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1): one more each way than there are vertices.
+  Attribute uv{"uv", Values((kAround + 1) * (kAcross + 1), 2), {}};
+  for (Index i = 0; i <= kAround; ++i) {
+    const double u = (5.0 * i + 2.0 * (i % 2)) / 10.0;
+    for (Index j = 0; j <= kAcross; ++j) {
+      const double v = (4.0 * j + (j < kAcross ? j % 2 : 0)) / 10.0;
+      uv.values.row(i * (kAcross + 1) + j) << u, v;
+    }
+  }
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const Index row = f / kAcross * (kAcross + 1) + f % kAcross;
+    for (const Index step : {0, kAcross + 1, kAcross + 2, 1}) uv.corner_rows.push_back(row + step);
+  }
+  mesh.attributes = {std::move(color), std::move(uv)};
+  return mesh;
+}
+
 std::vector<Model> all_models() {
-  std::vector<Model> models = {{"pipe-joint", pipe_joint()},     {"coarse-joint", coarse_joint()},
-                               {"pyramid", pyramid()},           {"tripod", tripod()},
-                               {"torus-knot", torus_knot()},     {"bracket", bracket()},
-                               {"creature", creature()},         {"bracket-scan", bracket_scan()},
-                               {"tetrahedron", tetrahedron()},   {"cube", cube()},
-                               {"dented-cube", dented_cube()},   {"octahedron", octahedron()},
-                               {"dodecahedron", dodecahedron()}, {"icosahedron", icosahedron()}};
+  std::vector<Model> models = {{"pipe-joint", pipe_joint()},
+                               {"coarse-joint", coarse_joint()},
+                               {"pyramid", pyramid()},
+                               {"tripod", tripod()},
+                               {"torus-knot", torus_knot()},
+                               {"bracket", bracket()},
+                               {"creature", creature()},
+                               {"bracket-scan", bracket_scan()},
+                               {"tetrahedron", tetrahedron()},
+                               {"cube", cube()},
+                               {"dented-cube", dented_cube()},
+                               {"octahedron", octahedron()},
+                               {"dodecahedron", dodecahedron()},
+                               {"icosahedron", icosahedron()},
+                               {"ring", ring()}};
   for (Model& model : models) round_points(model.mesh.points, model.mesh.vertex_count() <= 20 ? 1e6 : kGrain);
   return models;
 }

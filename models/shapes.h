@@ -19,6 +19,7 @@ Mesh tripod();        ///< three legs that meet in a hub; closed
 Mesh torus_knot();    ///< a tube along a trefoil, 72 by 8; closed
 Mesh bracket();       ///< an angle bracket with a rib and four bolt holes; creases of 10 and of 2.5
 Mesh creature();      ///< a body, four legs, a head with a snout and ears, a tail; closed
+Mesh ring();          ///< a lumpy ring with colours at the vertices and a texture whose seams go around both ways
 Mesh pyramid();       ///< five vertices, six triangles: a square pyramid, taller than wide
 
 /// A cube with one corner pushed in: no Catmull-Clark surface passes through its points.
