@@ -7,6 +7,7 @@
 #include "batten/mesh/primitives.h"
 #include "batten/refine/refined_mesh.h"
 #include "batten/refine/refinement.h"
+#include "batten/tessellate/face_varying_limit.h"
 #include "io/io_test_tools.h"
 #include "support/shapes.h"
 
@@ -138,6 +139,31 @@ TEST(InterpolatedMesh, ComponentsInAnyOrderKeepGroupsAndTexture) {
     EXPECT_EQ(refined.values.row(refined.corner_rows[16 + c]), whole.values.row(whole.corner_rows[64 + c]));
   }
   EXPECT_LE(missed(result.mesh, attribute_of(result.mesh, "height").values, given.points.col(2)), 1e-9);
+}
+
+/// Rows that both components have must not move on the one that stays as it is.
+TEST(InterpolatedMesh, ASmoothTextureIsThatOfTheMeshGiven) {
+  Mesh given = beside(grid(2, 2), dressed_cube(), {6, 0, 0});
+  Attribute uv{"uv", Values::Random(20, 2), Buffer<Index>()};
+  for (std::size_t c = 0; c < given.face_vertices.size(); ++c) {
+    uv.corner_rows.push_back(c % 7 == 3 ? static_cast<Index>(c % 20) : given.face_vertices[c]);
+  }
+  given.attributes = {uv};
+  for (const FaceVaryingRule rule :
+       {FaceVaryingRule::None, FaceVaryingRule::CornersOnly, FaceVaryingRule::Boundaries}) {
+    given.face_varying = rule;
+    const InterpolatedMesh result = interpolate(given);
+    ASSERT_EQ(result.mesh.face_count(), 4 + 24);
+    EXPECT_EQ(result.mesh.face_varying, rule);
+    const Attribute before = face_varying_limit(Topology(given), choose_scheme(given), uv, 0);
+    const Attribute after = face_varying_limit(result.topology, result.scheme, attribute_of(result.mesh, "uv"), 0);
+    for (std::ptrdiff_t c = 0; c < 40; ++c) {
+      const std::ptrdiff_t same = c < 16 ? c : 16 + 4 * (c - 16);  // the first corner of a child is the parent's
+      const Eigen::RowVector2d moved =
+          after.values.row(after.corner_rows[same]) - before.values.row(before.corner_rows[c]);
+      EXPECT_LE(moved.norm(), 1e-14) << c;
+    }
+  }
 }
 
 TEST(InterpolatedMesh, EverythingIsRefinedWhereThatIsAsked) {
