@@ -44,7 +44,14 @@ TEST(Hinge, JoinsTwoEdges) {
   // The crest in the middle of each edge is no longer on the surface.
   expect_one_ball(model, 82);
   const MedialBoundary boundary = medial_boundary(model);
-  for (Index face = 0; face < boundary.mesh.face_count(); ++face) EXPECT_EQ(boundary.mesh.face_size(face), 4);
+  const Mesh& mesh = boundary.mesh;
+  for (Index face = 0; face < mesh.face_count(); ++face) EXPECT_EQ(mesh.face_size(face), 4);
+  // Two openings of eight vertices that mirror each other: the ring comes last, and its faces lead straight across.
+  for (Index face = mesh.face_count() - 8; face < mesh.face_count(); ++face) {
+    const Index* corners = mesh.face_vertices.data() + mesh.face_offsets[face];
+    EXPECT_LT((mesh.points.row(corners[1]) - mesh.points.row(corners[2])).tail(2).norm(), 1e-12);
+    EXPECT_LT((mesh.points.row(corners[3]) - mesh.points.row(corners[0])).tail(2).norm(), 1e-12);
+  }
 }
 
 TEST(Hinge, JoinsAnEdgeToFacesOfTheSheet) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <random>
 #include <regex>
 
 #include "io/io_test_tools.h"
@@ -170,6 +171,38 @@ TEST(MedialFiles, WhatIsNoModelIsRefused) {
   const std::string deep(100000, '[');
   expect_error([&] { read_text(deep); }, ErrorCode::BadFile, "not JSON");
   expect_error([] { read_medial("no-such.srep.json"); }, ErrorCode::FileNotReadable, "no-such");
+}
+
+/// Whatever is changed in a file, the reader gives a sound model or an Error.
+TEST(MedialFiles, DamageOfAnyKindIsAnError) {
+  const TemporaryFolder folder;
+  MedialModel two = test::slab(2, 3);
+  two.figures.push_back(two.figures.front());
+  two.hinges.push_back({{1, {0, 3}, {}, SpokeSide::Up}, {0, {}, {0}, SpokeSide::Down}});
+  write_medial(folder.path("two.json"), two);
+  const std::string signs = "0123456789.-+eE,:[]{}\"NaN null\n\\";
+  std::mt19937 random(1);
+  int refused = 0;
+  for (const std::string& sound : {srep_text(), file_text(folder.path("two.json"))}) {
+    for (int i = 0; i < 200; ++i) {
+      std::string text = sound;
+      for (unsigned k = 0; k <= random() % 3; ++k) {
+        const std::size_t at = random() % text.size();
+        if (random() % 3 == 0) {
+          text.erase(at, random() % 40);
+        } else {
+          text[at] = signs[random() % signs.size()];
+        }
+      }
+      try {
+        require_medial(read_text(text));
+      } catch (const Error& error) {
+        ++refused;
+        EXPECT_NE(std::string(error.what()).find("model.json: "), std::string::npos) << error.what();
+      }
+    }
+  }
+  EXPECT_GT(refused, 50);
 }
 
 /// Directions with radii, elongations and the crest's own start.

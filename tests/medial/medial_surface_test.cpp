@@ -97,6 +97,10 @@ TEST(MedialErrors, VanishForAtomsThatFitTheSurface) {
   // The surface is mirrored as exactly as it is interpolated: to 1e-10 of a size of 5.
   EXPECT_LT(errors.shift.max, 1e-8);
   for (const SpokePair& pair : spoke_pairs(boundary)) EXPECT_LT(errors.angles(pair.up), 1e-8);
+  // Spokes of the right directions that are all too short: the fitted atom is the same, with a scale of 2.
+  boundary.radii *= 0.5;
+  const MedialErrors halved = measure_medial_errors(boundary, topology, made.surface.scheme, made.surface.mesh.points);
+  EXPECT_LT(halved.shift.max, 1e-8);
 }
 
 /// A spoke turned by an angle within the atom's plane is off by about that angle more or less.
