@@ -238,6 +238,7 @@ RefinedMesh refine_mesh(const Topology& topology, const Scheme& scheme, const Me
     step_scheme = scheme.after_first_step();
   }
   std::vector<Attribute> attributes;
+  attributes.reserve(carried.size());
   for (CarriedAttribute& attribute : carried) attributes.push_back(attribute.take());
   Mesh mesh = mesh_of(current, scheme, control, points, std::move(attributes), std::move(groups));
   return {current, std::move(mesh)};
