@@ -18,7 +18,7 @@ Eigen::Vector3d read_vector(const JsonPlace& place) {
   const JsonPlace system_place = place.at("CoordinateSystem");
   const std::string system = system_place.text();
   const JsonPlace value = place.at("Value");
-  const Eigen::Vector3d vector = value.vector();
+  Eigen::Vector3d vector = value.vector();
   if (system == "LPS") return vector;
   if (system == "RAS") return {-vector.x(), -vector.y(), vector.z()};
   system_place.fail("'" + system.substr(0, 40) + "' is an unknown coordinate system; LPS or RAS is expected");
