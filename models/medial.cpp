@@ -77,8 +77,10 @@ MedialFigure rectangle(const std::string& name, const SheetRadius& sheet, Index 
   figure.name = name;
   set_rectangle(figure, rows, columns);
   Values places(static_cast<Eigen::Index>(rows) * columns, 2);
-  for (Index i = 0; i < rows * columns; ++i)
-    places.row(i) << 2.0 * (i % columns) / (columns - 1) - 1.0, 2.0 * (i / columns) / (rows - 1) - 1.0;
+  for (Index i = 0; i < rows * columns; ++i) {
+    const Index row = i / columns;
+    places.row(i) << 2.0 * (i % columns) / (columns - 1) - 1.0, 2.0 * row / (rows - 1) - 1.0;
+  }
   set_spokes(figure, sheet, places, elongation);
   return figure;
 }
