@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cli/attributes.h"
+#include "cli/interpolation_rows.h"
 #include "cli/job.h"
 #include "cli/picture.h"
 
@@ -87,7 +88,7 @@ int run_adaptive(const SubdivideArguments& arguments) {
     table.add("not certain",
               fmt::format("in {}, which --levels lets go no deeper", count_of(result.unmet, "cell", "cells")));
   }
-  add_value_rows(table, solved);
+  add_value_rows(solved, table);
   job.print(table);
   job.report(
       {{"chord",
@@ -99,8 +100,8 @@ int run_adaptive(const SubdivideArguments& arguments) {
        {"scheme", scheme_json(scheme)},
        {"vertices", result.mesh.vertex_count()},
        {"faces", result.mesh.face_count()},
-       {"attributes", solved_values_json(solved)}});
-  require_reached(solved);
+       {"attributes", named_values_json(solved)}});
+  require_reached(solved, InterpolateOptions().tolerance);
   return 0;
 }
 

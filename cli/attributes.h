@@ -14,11 +14,4 @@ void require_values(const CommonArguments& common, const Mesh& mesh);
 /// given. Counts as a stage where they are solved for. Returns a report for each that was.
 std::vector<InterpolationReport> prepare_values(const Topology& topology, const Scheme& scheme, Job& job);
 
-/// One row for each set of values that was solved for.
-void add_value_rows(Table& table, const std::vector<InterpolationReport>& reports);
-nlohmann::ordered_json solved_values_json(const std::vector<InterpolationReport>& reports);
-
-/// Throws where values were missed. The output is written by then; the error gives the exit code.
-void require_reached(const std::vector<InterpolationReport>& reports);
-
 }  // namespace batten::cli

@@ -80,10 +80,13 @@ void write_output(const CommonArguments& arguments, const Mesh& mesh, UpAxis up)
 std::vector<std::string> tell_losses(const CommonArguments& arguments, const Mesh& mesh) {
   if (arguments.output.empty()) return {};
   std::vector<std::string> losses = find_losses(arguments.output, mesh, {arguments.output_format, !arguments.ascii});
-  if (losses.empty() || arguments.quiet) return losses;
-  const std::string name = arguments.output == "-" ? "standard output" : arguments.output;
-  fmt::print(stderr, "batten: {}: lost: {}\n", name, fmt::join(losses, ", "));
+  say_losses(arguments.output, losses, arguments.quiet);
   return losses;
+}
+
+void say_losses(const std::string& path, const std::vector<std::string>& losses, bool quiet) {
+  if (losses.empty() || quiet) return;
+  fmt::print(stderr, "batten: {}: lost: {}\n", path == "-" ? "standard output" : path, fmt::join(losses, ", "));
 }
 
 Scheme scheme_as_asked(const CommonArguments& arguments, const Mesh& mesh) {

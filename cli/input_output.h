@@ -22,6 +22,8 @@ void write_output(const CommonArguments& arguments, const Mesh& mesh, UpAxis up)
 /// What the output's format does not keep of the mesh, which is also printed on stderr unless quiet; nothing without an
 /// output.
 std::vector<std::string> tell_losses(const CommonArguments& arguments, const Mesh& mesh);
+/// Says on stderr what a file lacks, unless quiet; nothing where it lacks nothing.
+void say_losses(const std::string& path, const std::vector<std::string>& losses, bool quiet);
 /// The mesh's own scheme, overruled by the options.
 Scheme scheme_as_asked(const CommonArguments& arguments, const Mesh& mesh);
 /// As scheme_as_asked. Throws UsageError where an option has no effect on the scheme's kind.

@@ -6,74 +6,17 @@
 
 #include "batten/error.h"
 #include "batten/interpolate/interpolated_mesh.h"
-#include "batten/io/io.h"
 #include "batten/mesh/vertex_fields.h"
-#include "batten/tessellate/surface_mesh.h"
 #include "cli/attributes.h"
 #include "cli/compare.h"
+#include "cli/interpolation_rows.h"
 #include "cli/job.h"
 #include "cli/picture.h"
 #include "cli/plots.h"
+#include "cli/surface_output.h"
 
 namespace batten::cli {
 namespace {
-
-/// The control mesh, or where a refined surface was asked for, or the format holds nothing else, that surface.
-/// Returns what was written when it is not the control mesh.
-std::string write_result(const InterpolateArguments& arguments, const InterpolatedMesh& result, Job& job) {
-  const CommonArguments& common = arguments.common;
-  const bool surface =
-      !common.output.empty() && (arguments.levels >= 0 || file_format(common.output, common.output_format) == "glb");
-  if (!surface) {
-    job.write(result.mesh);
-    return {};
-  }
-  const int levels = arguments.levels >= 0 ? arguments.levels : std::min(3, picture_levels(result.topology));
-  ProgressBar bar("refining", common.quiet);
-  const Mesh refined = surface_mesh(result.topology, result.scheme, result.mesh, levels, bar.callback());
-  job.write(refined);
-  return fmt::format("the limit surface refined to {}, {}", count_of(levels, "level", "levels"), size_text(refined));
-}
-
-std::string share_text(double length, double diagonal) {
-  return fmt::format("{:.3g} of the diagonal", diagonal > 0.0 ? length / diagonal : 0.0);
-}
-
-Index worst_vertex(const InterpolationReport& report) { return report.worst.empty() ? -1 : report.worst.front().row; }
-
-/// What the table says of an outcome besides the errors; empty where the surface passes through each point.
-const char* outcome_text(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::Reached:
-      return "";
-    case Outcome::Rounding:
-      return "as near as doubles come at these coordinates";
-    case Outcome::LeastSquares:
-      return "the nearest miss on singular components, the tolerance elsewhere";
-    case Outcome::NotReached:
-      break;
-  }
-  return "the tolerance was NOT reached";
-}
-
-const char* outcome_word(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::Reached:
-      return "tolerance";
-    case Outcome::Rounding:
-      return "rounding";
-    case Outcome::LeastSquares:
-      return "least squares";
-    case Outcome::NotReached:
-      break;
-  }
-  return "not reached";
-}
-
-std::string error_text(const InterpolationReport& report) {
-  return fmt::format("{:.3g} at vertex {} ({})", report.max_error, worst_vertex(report),
-                     share_text(report.max_error, report.diagonal));
-}
 
 void add_error_rows(Table& table, const std::vector<InterpolationReport>& reports) {
   const InterpolationReport& points = reports.front();
@@ -82,11 +25,7 @@ void add_error_rows(Table& table, const std::vector<InterpolationReport>& report
   if (points.outcome != Outcome::Reached) table.add("reached", outcome_text(points.outcome));
   table.add("moved",
             fmt::format("at most {:.4g} ({})", points.max_movement, share_text(points.max_movement, points.diagonal)));
-  for (std::size_t i = 1; i < reports.size(); ++i) {
-    const char* outcome = outcome_text(reports[i].outcome);
-    table.add(reports[i].name,
-              fmt::format("max error {}{}{}", error_text(reports[i]), *outcome != '\0' ? ": " : "", outcome));
-  }
+  add_value_rows({reports.begin() + 1, reports.end()}, table);
 }
 
 const char* reason_text(SingularReason reason) {
@@ -145,36 +84,6 @@ void add_all_singular_rows(Table& table, const std::vector<InterpolationReport>&
   }
 }
 
-nlohmann::ordered_json singular_json(const InterpolationReport& report) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  for (const SingularReport& one : report.singular) {
-    constexpr const char* kReasons[] = {"two-colourable", "valence 2", "unsolvable"};
-    constexpr const char* kTreatments[] = {"none needed", "least squares", "alpha"};
-    json.push_back({{"vertex", one.vertex},
-                    {"vertices", one.vertex_count},
-                    {"reason", kReasons[static_cast<int>(one.reason)]},
-                    {"treatment", kTreatments[static_cast<int>(one.treatment)]},
-                    {"alpha", one.alpha}});
-  }
-  return json;
-}
-
-nlohmann::ordered_json values_json(const InterpolationReport& report) {
-  nlohmann::ordered_json worst = nlohmann::ordered_json::array();
-  for (const RowError& entry : report.worst) worst.push_back({{"vertex", entry.row}, {"error", entry.error}});
-  return {{"method", report.solve.method_name},
-          {"converged", report.converged()},
-          {"outcome", outcome_word(report.outcome)},
-          {"iterations", report.solve.iterations},
-          {"residual_history", report.solve.residual_history},
-          {"measured_after", report.solve.measured_after},
-          {"max_error", report.max_error},
-          {"rms_error", report.rms_error},
-          {"worst_vertices", worst},
-          {"max_movement", report.max_movement},
-          {"singular", singular_json(report)}};
-}
-
 nlohmann::ordered_json report_json(const InterpolateArguments& arguments, const Topology& topology,
                                    const Scheme& scheme, const InterpolatedMesh& result) {
   const InterpolationReport& points = result.reports.front();
@@ -192,13 +101,7 @@ nlohmann::ordered_json report_json(const InterpolateArguments& arguments, const 
   json["refined_once"] = result.is_refined;
   json["written_vertices"] = result.topology.vertex_count();
   json["written_faces"] = result.topology.face_count();
-  nlohmann::ordered_json attributes = nlohmann::ordered_json::array();
-  for (std::size_t i = 1; i < result.reports.size(); ++i) {
-    nlohmann::ordered_json attribute{{"name", result.reports[i].name}, {"diagonal", result.reports[i].diagonal}};
-    attribute.update(values_json(result.reports[i]));
-    attributes.push_back(std::move(attribute));
-  }
-  json["attributes"] = std::move(attributes);
+  json["attributes"] = named_values_json({result.reports.begin() + 1, result.reports.end()});
   json["peak_memory_bytes"] = peak_memory_bytes();
   return json;
 }
@@ -247,18 +150,6 @@ void print_table(const Topology& topology, const Scheme& scheme, const Interpola
   if (result.is_refined) table.add("refined", refined_text(topology, result));
   if (!written.empty()) table.add("written", written);
   job.print(table);
-}
-
-/// Throws where points were missed. The output is written by then; the error gives the exit code.
-void require_tolerance(const std::vector<InterpolationReport>& reports, const InterpolateOptions& options) {
-  for (const InterpolationReport& report : reports) {
-    if (report.converged()) continue;
-    throw Error(
-        ErrorCode::NotConverged,
-        fmt::format("{}the tolerance {:g} was not reached in {} iterations; what was reached is written{}",
-                    report.name == "points" ? "" : report.name + ": ", options.tolerance, report.solve.iterations,
-                    options.method == SolveMethod::Auto ? "" : " (try --method auto)"));
-  }
 }
 
 InterpolatedMesh solve(const InterpolateArguments& arguments, const Topology& topology, const Scheme& scheme,
@@ -315,7 +206,7 @@ int run_interpolate(const InterpolateArguments& arguments) {
   const Mesh given = drawn ? job.mesh : Mesh();
   const Points targets = arguments.compare_methods ? job.mesh.points : Points(0, 3);
   const InterpolatedMesh result = solve(arguments, topology, scheme, job);
-  const std::string written = write_result(arguments, result, job);
+  const std::string written = write_surface({result.mesh, result.topology, result.scheme}, arguments.levels, job);
   if (drawn) {
     draw(subject_of(given, result, arguments.picture), arguments.picture, job);
     job.stages.finish("picture");
@@ -327,7 +218,8 @@ int run_interpolate(const InterpolateArguments& arguments) {
   nlohmann::ordered_json report = report_json(arguments, topology, scheme, result);
   if (arguments.compare_methods) report["compared_methods"] = methods_json(methods);
   job.report(report);
-  require_tolerance(result.reports, arguments.options);
+  require_reached(result.reports, arguments.options.tolerance,
+                  arguments.options.method == SolveMethod::Auto ? "" : "try --method auto");
   return 0;
 }
 

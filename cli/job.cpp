@@ -8,12 +8,9 @@
 namespace batten::cli {
 
 Job::Job(std::string verb_in, const CommonArguments& arguments)
-    : verb(std::move(verb_in)),
-      common(arguments),
-      limit(arguments.threads),
-      mesh(read_input(arguments, &repairs, &notes)),
-      up(up_axis_for(arguments, mesh)) {
-  stages.finish("read");
+    : Job(
+          std::move(verb_in), arguments, [this] { mesh = read_input(common, &repairs, &notes); }, UpAxis::Z) {
+  up = up_axis_for(arguments, mesh);
 }
 
 Job::Job(std::string verb_in, const CommonArguments& arguments, const std::function<void()>& read, UpAxis usual_up)

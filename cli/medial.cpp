@@ -5,16 +5,16 @@
 #include <cmath>
 #include <numbers>
 
-#include "batten/io/io.h"
 #include "batten/medial/medial_check.h"
 #include "batten/medial/medial_io.h"
 #include "batten/medial/medial_refinement.h"
 #include "batten/medial/medial_surface.h"
 #include "batten/medial/spoke_mesh.h"
 #include "batten/mesh/vertex_fields.h"
-#include "batten/tessellate/surface_mesh.h"
+#include "cli/interpolation_rows.h"
 #include "cli/job.h"
 #include "cli/picture.h"
+#include "cli/surface_output.h"
 
 namespace batten::cli {
 namespace {
@@ -127,20 +127,8 @@ nlohmann::ordered_json report_json(const MedialRun& run) {
           {"shift", measure_json(run, errors.shift)}};
 }
 
-/// The control mesh, or the limit surface where it was asked for or the format holds nothing else.
-std::string write_surface(const MedialRun& run, Job& job) {
-  const CommonArguments& common = run.arguments.common;
-  const InterpolatedMesh& surface = run.made.surface;
-  if (common.output.empty()) return {};
-  if (run.arguments.levels < 0 && file_format(common.output, common.output_format) != "glb") {
-    job.write(surface.mesh);
-    return "the control mesh, " + size_text(surface.mesh);
-  }
-  const int levels = run.arguments.levels >= 0 ? run.arguments.levels : std::min(3, picture_levels(surface.topology));
-  const Mesh refined = surface_mesh(surface.topology, surface.scheme, surface.mesh, levels,
-                                    ProgressBar("refining", common.quiet).callback());
-  job.write(refined);
-  return fmt::format("the limit surface refined to {}, {}", count_of(levels, "level", "levels"), size_text(refined));
+void add_losses(Job& job, const std::vector<std::string>& losses) {
+  job.lost.insert(job.lost.end(), losses.begin(), losses.end());
 }
 
 void write_sheet(const MedialRun& run, Table& table, Job& job) {
@@ -152,9 +140,16 @@ void write_sheet(const MedialRun& run, Table& table, Job& job) {
     sheet.output = arguments.sheet;
     sheet.output_format.clear();
     sheet.ascii = false;
-    write_output(sheet, sheet_mesh(refined), job.up);
+    const Mesh mesh = sheet_mesh(refined);
+    write_output(sheet, mesh, job.up);
+    add_losses(job, tell_losses(sheet, mesh));
   }
-  if (!arguments.model.empty()) write_medial(arguments.model, refined);
+  if (!arguments.model.empty()) {
+    write_medial(arguments.model, refined);
+    const std::vector<std::string> losses = find_medial_losses(arguments.model, refined);
+    say_losses(arguments.model, losses, arguments.common.quiet);
+    add_losses(job, losses);
+  }
   table.add("sheet", model_text(refined));
   job.stages.finish("sheet");
 }
@@ -227,12 +222,14 @@ int run_medial(const MedialArguments& arguments) {
   table.add("mesh", size_text(made.boundary.mesh));
   add_check_rows(run, table);
   add_error_rows(run, table);
-  const std::string written = write_surface(run, job);
+  const InterpolatedMesh& surface = made.surface;
+  const std::string written = write_surface({surface.mesh, surface.topology, surface.scheme}, arguments.levels, job);
   if (!written.empty()) table.add("written", written);
   write_sheet(run, table, job);
   if (!arguments.picture.path.empty()) draw_surface(run, job);
   job.print(table);
   job.report(report_json(run));
+  require_reached(surface.reports, medial_interpolation().tolerance);
   return 0;
 }
 

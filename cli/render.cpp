@@ -6,6 +6,7 @@
 #include "batten/limit/limit_matrix.h"
 #include "batten/tessellate/surface_mesh.h"
 #include "cli/attributes.h"
+#include "cli/interpolation_rows.h"
 #include "cli/job.h"
 #include "cli/picture.h"
 
@@ -98,10 +99,10 @@ int run_render(const RenderArguments& arguments) {
   Table table;
   table.add("mesh", size_text(mesh));
   table.add("drawn", shown);
-  add_value_rows(table, solved);
+  add_value_rows(solved, table);
   job.print(table);
-  job.report({{"attributes", solved_values_json(solved)}});
-  require_reached(solved);
+  job.report({{"attributes", named_values_json(solved)}});
+  require_reached(solved, InterpolateOptions().tolerance);
   return 0;
 }
 

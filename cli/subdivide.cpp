@@ -5,6 +5,7 @@
 #include "batten/refine/refined_mesh.h"
 #include "batten/tessellate/surface_mesh.h"
 #include "cli/attributes.h"
+#include "cli/interpolation_rows.h"
 #include "cli/job.h"
 #include "cli/picture.h"
 
@@ -40,15 +41,15 @@ int run_subdivide(const SubdivideArguments& arguments) {
   table.add("scheme", scheme_text(scheme));
   table.add("refined", fmt::format("{} to {}{}", count_of(levels, "level", "levels"), size_text(refined),
                                    arguments.limit ? ", on the limit surface" : ""));
-  add_value_rows(table, solved);
+  add_value_rows(solved, table);
   job.print(table);
   job.report({{"levels", levels},
               {"limit", arguments.limit},
               {"scheme", scheme_json(scheme)},
               {"vertices", refined.vertex_count()},
               {"faces", refined.face_count()},
-              {"attributes", solved_values_json(solved)}});
-  require_reached(solved);
+              {"attributes", named_values_json(solved)}});
+  require_reached(solved, InterpolateOptions().tolerance);
   return 0;
 }
 

@@ -189,7 +189,8 @@ TEST(AdaptiveSurfaceMesh, AtCornersFollowTheFaceVaryingRule) {
     tessellator.faces(faces);
     // By base face and vertex; holes have no faces there.
     std::map<std::pair<Index, Index>, Index> rows;
-    const auto per_face = static_cast<std::size_t>(tessellator.steps() * tessellator.steps() * tessellator.face_size());
+    const auto steps = static_cast<std::size_t>(tessellator.steps());
+    const std::size_t per_face = steps * steps * static_cast<std::size_t>(tessellator.face_size());
     const SurfacePatches patches(topology, scheme);
     std::size_t first = 0;
     for (Index f = 0; f < tessellator.base().face_count(); ++f) {

@@ -1,4 +1,5 @@
 /// The verb medial: from the files of medial models to surfaces, sheets, models and reports.
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "batten/io/io.h"
@@ -50,6 +51,16 @@ TEST_F(MedialTool, WritesTheModelAndItsSheetFiner) {
   const MedialFigure figure = read_medial(path("fine.srep.json")).figures.front();
   EXPECT_EQ(figure.grid->crest_points, 40);
   EXPECT_EQ(read_mesh(path("sheet.ply")).points, figure.sheet.points);
+}
+
+TEST_F(MedialTool, SaysWhatTheModelAndTheSheetLose) {
+  const Outcome plain = run("medial " + kModels + "bean.srep.json --model a.json --sheet a.stl --report r.json");
+  ASSERT_EQ(plain.status, 0) << plain.err;
+  EXPECT_NE(plain.err.find("a.json: lost: the order of the atoms in lines and steps"), std::string::npos) << plain.err;
+  EXPECT_NE(plain.err.find("a.stl: lost: polygons"), std::string::npos) << plain.err;
+  const auto lost = nlohmann::json::parse(text_of(path("r.json"))).at("lost");
+  EXPECT_NE(std::find(lost.begin(), lost.end(), "the order of the atoms in lines and steps"), lost.end());
+  EXPECT_EQ(run("medial " + kModels + "slab.json --model b.json").err, "");
 }
 
 TEST_F(MedialTool, NamesWhereAFileIsDamaged) {

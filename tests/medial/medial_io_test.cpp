@@ -173,6 +173,19 @@ TEST(MedialFiles, WhatIsNoModelIsRefused) {
   expect_error([] { read_medial("no-such.srep.json"); }, ErrorCode::FileNotReadable, "no-such");
 }
 
+/// Writing such a list into the message would run out of stack.
+TEST(MedialFiles, WhatStandsForANumberIsNamedHoweverDeepItIs) {
+  const auto with_rows = [](const std::string& rows) {
+    return R"({"figures": [{"grid": [)" + rows + R"(, 2], "atoms": [{}]}]})";
+  };
+  const std::string deep = std::string(1000000, '[') + std::string(1000000, ']');
+  expect_error([&] { read_text(with_rows(deep)); }, ErrorCode::BadFile,
+               "figure 0, grid, entry 0: a number is expected");
+  expect_error([&] { read_text(with_rows(deep)); }, ErrorCode::BadFile, "not a list");
+  expect_error([&] { read_text(with_rows("{}")); }, ErrorCode::BadFile, "not an object");
+  expect_error([&] { read_text(with_rows("\"two\"")); }, ErrorCode::BadFile, "not \"two\"");
+}
+
 /// Whatever is changed in a file, the reader gives a sound model or an Error.
 TEST(MedialFiles, DamageOfAnyKindIsAnError) {
   const TemporaryFolder folder;

@@ -82,6 +82,15 @@ void add_text(const Json& value, std::size_t indent, std::string& text) {
   text += value.is_object() ? '}' : ']';
 }
 
+/// What an error says that it met instead. A list or object is only named: writing one calls itself for each that it
+/// holds, as deep as the file likes. Bytes that are no UTF-8 are replaced.
+std::string found_text(const Json& value) {
+  constexpr std::size_t kLongest = 40;
+  if (value.is_array()) return "a list";
+  if (value.is_object()) return "an object";
+  return value.dump(-1, ' ', false, Json::error_handler_t::replace).substr(0, kLongest);
+}
+
 /// The parser's message without its own number and place.
 std::string reason_of(const Json::exception& error) {
   const std::string text = error.what();
@@ -150,7 +159,7 @@ std::size_t JsonPlace::size() const {
 }
 
 double JsonPlace::number() const {
-  if (!value_.is_number()) fail("a number is expected here, not " + value_.dump().substr(0, 40));
+  if (!value_.is_number()) fail("a number is expected here, not " + found_text(value_));
   const auto number = value_.get<double>();
   if (!std::isfinite(number)) fail("the number is not finite");
   return number;
@@ -159,7 +168,7 @@ double JsonPlace::number() const {
 Index JsonPlace::index() const {
   const double value = number();
   if (!value_.is_number_integer() || value < 0 || value > std::numeric_limits<Index>::max())
-    fail("a whole number from 0 on is expected here, not " + value_.dump().substr(0, 40));
+    fail("a whole number from 0 on is expected here, not " + found_text(value_));
   return static_cast<Index>(value);
 }
 

@@ -63,4 +63,18 @@ void write_medial(const std::string& path, const MedialModel& model) {
   write_bytes(path, Buffer<unsigned char>(text.begin(), text.end()));
 }
 
+std::vector<std::string> find_medial_losses(const std::string& path, const MedialModel& model) {
+  const auto some_figure = [&](const auto& has) {
+    return std::any_of(model.figures.begin(), model.figures.end(), has);
+  };
+  std::vector<std::string> lost;
+  if (is_srep_path(path)) {
+    if (some_figure([](const MedialFigure& figure) { return !figure.name.empty(); }))
+      lost.push_back("the figure's name");
+  } else if (some_figure([](const MedialFigure& figure) { return figure.grid.has_value(); })) {
+    lost.push_back("the order of the atoms in lines and steps");
+  }
+  return lost;
+}
+
 }  // namespace batten

@@ -16,6 +16,7 @@
 ///               {"figure": ..., "side": "up" or "down", "faces": [faces of the sheet]}.
 #pragma once
 #include <string>
+#include <vector>
 
 #include "batten/medial/medial_model.h"
 
@@ -31,6 +32,10 @@ MedialModel read_medial(const std::string& path, const Progress& progress = {});
 /// Error(BadArgument) for a .srep.json of anything but one figure on an elliptical grid, and what require_medial
 /// throws.
 void write_medial(const std::string& path, const MedialModel& model);
+
+/// What a file written by write_medial(path, model) lacks of the model, in words such as "the figure's name"; empty if
+/// reading the file gives all of it.
+std::vector<std::string> find_medial_losses(const std::string& path, const MedialModel& model);
 
 /// True if the path ends with .srep.json, in capital letters or not.
 bool is_srep_path(const std::string& path);

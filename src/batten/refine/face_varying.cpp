@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <unordered_map>
 #include <utility>
 
@@ -18,11 +19,13 @@ namespace {
 
 /// The faces at a vertex between one seam or boundary and the next, which have one value there.
 struct Sector {
-  Index start;  ///< the first half-edge, which leaves the vertex
-  Index row;    ///< -1: faces without values
+  Index start;        ///< the first half-edge, which leaves the vertex
+  std::size_t place;  ///< of this half-edge among those that leave the vertex
+  Index row;          ///< -1: faces without values
   Index faces = 0;
   bool open = true;           ///< false where it goes all around the vertex
   bool repeated = false;      ///< another sector of the vertex has the same row
+  std::size_t first = 0;      ///< the first that has it
   bool divided = false;       ///< an infinitely sharp edge lies inside
   Buffer<float> fading = {};  ///< the semi-sharp edges inside
 };
@@ -133,8 +136,9 @@ class SeamCutter {
     const bool closed = first == around_.end();
     if (!closed) std::rotate(around_.begin(), first, around_.end());
     sectors_.clear();
-    for (const Index h : around_) {
-      if (is_open(h) || sectors_.empty()) sectors_.push_back({h, rows_[h]});
+    for (std::size_t i = 0; i < around_.size(); ++i) {
+      const Index h = around_[i];
+      if (is_open(h) || sectors_.empty()) sectors_.push_back({h, i, rows_[h]});
       Sector& sector = sectors_.back();
       ++sector.faces;
       sector.open = !closed;
@@ -151,36 +155,43 @@ class SeamCutter {
     const bool together = are_corners_together(v, values);
     const float given = vertex_sharpness(topology_, scheme_, v);
     const bool dependent = values == 2 && !is_sharp(given) && depends_on_others();
+    const auto fading = std::find_if(sectors_.begin(), sectors_.end(),
+                                     [](const Sector& one) { return one.row >= 0 && !one.fading.empty(); });
     for (const Sector& sector : sectors_) {
       float sharpness = given;
       if (sector.row >= 0 && sector.open && (together || is_corner(sector))) {
         sharpness = kInfiniteSharpness;
       } else if (dependent && sector.row >= 0 && sector.fading.empty()) {
-        const auto other = std::find_if(sectors_.begin(), sectors_.end(),
-                                        [](const Sector& one) { return one.row >= 0 && !one.fading.empty(); });
-        if (other != sectors_.end()) sharpness = last_to_fade(other->fading);
+        if (fading != sectors_.end()) sharpness = last_to_fade(fading->fading);
       }
       place(sector, sharpness);
     }
     for (const Sector& sector : sectors_) {
-      if (!sector.repeated) continue;
-      const auto first =
-          std::find_if(sectors_.begin(), sectors_.end(), [&](const Sector& one) { return one.row == sector.row; });
       const Index vertex = tables_.origins[sector.start];
-      const Index first_vertex = tables_.origins[first->start];
+      const Index first_vertex = tables_.origins[sectors_[sector.first].start];
       if (vertex != first_vertex) returning_.emplace_back(vertex, first_vertex);
     }
   }
 
+  /// The number of different rows. Says of each sector whether others have its row, and which is the first.
   Index count_values() {
+    by_row_.resize(sectors_.size());
+    std::iota(by_row_.begin(), by_row_.end(), std::size_t{0});
+    const auto row = [&](std::size_t i) { return sectors_[i].row; };
+    std::stable_sort(by_row_.begin(), by_row_.end(), [&](std::size_t a, std::size_t b) { return row(a) < row(b); });
     Index values = 0;
-    for (std::size_t i = 0; i < sectors_.size(); ++i) {
-      if (sectors_[i].row < 0) continue;
-      const auto earlier = std::find_if(sectors_.begin(), sectors_.begin() + static_cast<std::ptrdiff_t>(i),
-                                        [&](const Sector& one) { return one.row == sectors_[i].row; });
-      const bool met = earlier != sectors_.begin() + static_cast<std::ptrdiff_t>(i);
-      values += met ? 0 : 1;
-      if (met) earlier->repeated = sectors_[i].repeated = true;
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < by_row_.size(); ++i) {
+      Sector& sector = sectors_[by_row_[i]];
+      sector.first = by_row_[i];
+      if (sector.row < 0) continue;
+      if (i == 0 || row(by_row_[i - 1]) != sector.row) {
+        first = by_row_[i];
+        ++values;
+        continue;
+      }
+      sector.first = first;
+      sectors_[first].repeated = sector.repeated = true;
     }
     return values;
   }
@@ -222,8 +233,7 @@ class SeamCutter {
     }
     tables_.vertex_half_edges[vertex] = sector.start;
     sharpness_[vertex] = sharpness;
-    auto h = std::find(around_.begin(), around_.end(), sector.start);
-    for (Index i = 0; i < sector.faces; ++i) tables_.origins[*h++] = vertex;
+    for (Index i = 0; i < sector.faces; ++i) tables_.origins[around_[sector.place + i]] = vertex;
   }
 
   const Topology& topology_;
@@ -235,6 +245,7 @@ class SeamCutter {
   Buffer<Index> added_rows_;
   Buffer<Index> around_;  ///< the half-edges that leave a vertex
   std::vector<Sector> sectors_;
+  std::vector<std::size_t> by_row_;  ///< the sectors, ordered by their rows
   std::vector<std::pair<Index, Index>> returning_;
 };
 
