@@ -1,9 +1,15 @@
 /// \file The two formats of medial models: 3D Slicer's elliptical s-reps, and figures of atoms.
 #pragma once
+#include <string>
+#include <string_view>
+
 #include "batten/medial/json_place.h"
 #include "batten/medial/medial_model.h"
 
 namespace batten::medial {
+
+/// A whole file of either format; `name` is what errors call it. Throws what read_medial() does.
+MedialModel model_from_text(const std::string& name, std::string_view text);
 
 /// document: the whole file. Throws Error(BadFile) naming line and step.
 MedialModel srep_from_json(const JsonPlace& document);

@@ -20,7 +20,9 @@ bool ends_with(const std::string& path, std::string_view end) {
   });
 }
 
-MedialModel read_text(const std::string& name, std::string_view text) {
+}  // namespace
+
+MedialModel medial::model_from_text(const std::string& name, std::string_view text) {
   const medial::Json json = medial::parse_json(name, text);
   const medial::JsonPlace document(name, json);
   if (!document.has("EllipticalSRep") && !document.has("figures"))
@@ -30,8 +32,6 @@ MedialModel read_text(const std::string& name, std::string_view text) {
   return model;
 }
 
-}  // namespace
-
 bool is_srep_path(const std::string& path) { return ends_with(path, ".srep.json"); }
 
 MedialModel read_medial(const std::string& path, const Progress& progress) {
@@ -39,9 +39,9 @@ MedialModel read_medial(const std::string& path, const Progress& progress) {
   const std::string name = path == "-" ? "standard input" : path;
   const io::Source source{name, file.bytes()};
   try {
-    if (!io::is_gzip(source.bytes)) return read_text(name, source.bytes);
+    if (!io::is_gzip(source.bytes)) return medial::model_from_text(name, source.bytes);
     const Buffer<char> unpacked = io::unpack_gzip(source);
-    return read_text(name, {unpacked.data(), unpacked.size()});
+    return medial::model_from_text(name, {unpacked.data(), unpacked.size()});
   } catch (const Error& error) {
     const std::string message = error.what();
     if (message.rfind(name + ":", 0) == 0) throw;
