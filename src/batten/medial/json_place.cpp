@@ -82,8 +82,7 @@ void add_text(const Json& value, std::size_t indent, std::string& text) {
   text += value.is_object() ? '}' : ']';
 }
 
-/// What an error says that it met instead. A list or object is only named: writing one calls itself for each that it
-/// holds, as deep as the file likes. Bytes that are no UTF-8 are replaced.
+/// What an error says that it met instead. Lists and objects are only named; bytes that are no UTF-8 are replaced.
 std::string found_text(const Json& value) {
   constexpr std::size_t kLongest = 40;
   if (value.is_array()) return "a list";
@@ -121,8 +120,15 @@ std::string place_text(const std::vector<JsonStep>& steps) {
 }
 
 Json parse_json(const std::string& name, std::string_view text) {
+  // What copies a value calls itself for each that it holds; no model is nearly as deep.
+  constexpr int kDeepest = 64;
+  const auto require_shallow = [&](int depth, Json::parse_event_t /*event*/, const Json& /*value*/) {
+    if (depth <= kDeepest) return true;
+    throw Error(ErrorCode::BadFile, name + ": lists or objects lie more than " + std::to_string(kDeepest) +
+                                        " deep in each other; no medial model is so");
+  };
   try {
-    return Json::parse(text.begin(), text.end());
+    return Json::parse(text.begin(), text.end(), require_shallow);
   } catch (const Json::exception&) {
     // Once more, slower, to know the place.
   }

@@ -21,7 +21,8 @@ struct JsonStep {
 /// "line 3, step 1, UpSpoke, Direction", from the steps that lead from the root. Empty at the root.
 std::string place_text(const std::vector<JsonStep>& steps);
 
-/// The document. Throws Error(BadFile) "NAME: PLACE: ..." where the text is no JSON.
+/// The document. Throws Error(BadFile) "NAME: PLACE: ..." where the text is no JSON, or is nested
+/// deeper than any model.
 Json parse_json(const std::string& name, std::string_view text);
 
 /// The document as text: a value on one line where that is short, otherwise an entry a line. Ends in a line feed.
