@@ -72,7 +72,7 @@ void add_check_rows(const MedialRun& run, Table& table) {
 
 void add_error_rows(const MedialRun& run, Table& table) {
   const MedialErrors& errors = run.made.errors;
-  const auto where = [&](const SpokeMeasure& measure) {
+  const auto where = [&](const VertexMeasure& measure) {
     return measure.worst_vertex < 0 ? std::string("no spoke") : name_at(run, measure.worst_vertex);
   };
   table.add("distance", fmt::format("at most {:.3g} ({:.3g} of the radius), {}", errors.distance.max,
@@ -83,7 +83,7 @@ void add_error_rows(const MedialRun& run, Table& table) {
                                  errors.shift.max, errors.shift.mean, where(errors.shift)));
 }
 
-nlohmann::ordered_json measure_json(const MedialRun& run, const SpokeMeasure& measure, double unit = 1.0) {
+nlohmann::ordered_json measure_json(const MedialRun& run, const VertexMeasure& measure, double unit = 1.0) {
   nlohmann::ordered_json json{{"max", unit * measure.max}, {"mean", unit * measure.mean}, {"rms", unit * measure.rms}};
   json["at"] = measure.worst_vertex < 0 ? "" : name_at(run, measure.worst_vertex);
   json["vertex"] = measure.worst_vertex;

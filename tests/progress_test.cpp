@@ -13,6 +13,7 @@
 #include "batten/expand/sharpen.h"
 #include "batten/expand/texture.h"
 #include "batten/interpolate/interpolated_mesh.h"
+#include "batten/interpolate/local_normals.h"
 #include "batten/interpolate/method_comparison.h"
 #include "batten/limit/limit_matrix.h"
 #include "batten/mesh/check.h"
@@ -115,6 +116,11 @@ std::vector<Named> operations(const io_tests::TemporaryFolder& folder) {
          const DiscreteCurvature curvature =
              discrete_curvature(topology, mesh.points, progress_within(progress, 0.0, 0.5));
          fairness(topology, mesh.points, curvature, progress_within(progress, 0.5, 1.0));
+       }},
+      {"normals turned",
+       [](const Progress& progress) {
+         const Values wanted = Eigen::RowVector3d(1.0, 2.0, 3.0).replicate(small.vertex_count(), 1);
+         turn_normals(small_topology, scheme, small.points, wanted, {}, progress);
        }},
       {"interpolator", [](const Progress& progress) { Interpolator(topology, scheme, {}, progress); }},
       {"mesh series",

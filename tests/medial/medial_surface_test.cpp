@@ -56,6 +56,26 @@ TEST(MedialSurface, AttributesPassThroughTheirValues) {
   }
 }
 
+/// The atoms of exact normals fit the surface in Blum's sense, as the paper says.
+TEST(MedialSurface, TurnedToItsSpokesFitsItsAtoms) {
+  MedialSurface made = medial_surface(test::ellipse(12, 2));
+  const VertexMeasure before = made.errors.angle;
+  const double shift = made.errors.shift.max;
+  const TurnReport report = turn_to_spokes(made);
+  EXPECT_GT(before.max, 0.01);
+  EXPECT_NEAR(report.before_angle.max, before.max, 1e-12);
+  EXPECT_LT(made.errors.angle.max, 1e-12);
+  EXPECT_LT(made.errors.distance.max, 1e-10);
+  EXPECT_LT(made.errors.shift.max, shift);
+  // Its attributes still pass through their values.
+  const LimitMatrix limit(made.surface.topology, made.surface.scheme);
+  for (std::size_t i = 0; i < made.surface.mesh.attributes.size(); ++i) {
+    const Values& values = made.boundary.mesh.attributes[i].values;
+    const Values reached = limit.apply(made.surface.mesh.attributes[i].values).topRows(values.rows());
+    EXPECT_LT((reached - values).cwiseAbs().maxCoeff(), 1e-8);
+  }
+}
+
 TEST(MedialErrors, FollowARigidMotion) {
   const MedialModel model = test::ellipse(12, 2);
   MedialModel moved = model;

@@ -10,6 +10,7 @@
 #include "batten/error.h"
 #include "batten/limit/limit_matrix.h"
 #include "batten/mesh/face_normal.h"
+#include "batten/mesh/vertex_normals.h"
 #include "batten/parallel/parallel.h"
 #include "batten/progress.h"
 #include "batten/tessellate/grid_fields.h"
@@ -21,25 +22,6 @@ namespace {
 void drop_attribute(Mesh& mesh, const std::string& name) {
   auto& all = mesh.attributes;
   all.erase(std::remove_if(all.begin(), all.end(), [&](const Attribute& a) { return a.name == name; }), all.end());
-}
-
-/// Normals of any length: at each vertex the mean of its corners' normals, which lies between the sides of a crease.
-Points vertex_normals(const Mesh& mesh) {
-  Points normals = Points::Zero(mesh.vertex_count(), 3);
-  for (const Attribute& attribute : mesh.attributes) {
-    if (attribute.name != "normal") continue;
-    if (!attribute.per_corner()) {
-      normals = attribute.values;
-      continue;
-    }
-    normals.setZero();
-    for (std::size_t c = 0; c < mesh.face_vertices.size(); ++c) {
-      const Index row = attribute.corner_rows[c];
-      if (row >= 0) normals.row(mesh.face_vertices[c]) += attribute.values.row(row);
-    }
-    break;
-  }
-  return normals;
 }
 
 /// The normals of the faces around each vertex, weighted by area.
@@ -118,7 +100,7 @@ Mesh textured_surface(const Topology& topology, const Scheme& scheme, const Mesh
   drop_attribute(mesh, "color");
   mesh.attributes.push_back({"color", colors_of(texture, places, noise), {}});
   if (options.displacement != 0.0 && noise.cols() > 0) {
-    const Points normals = options.flat ? flat_normals(mesh) : vertex_normals(mesh);
+    const Points normals = options.flat ? flat_normals(mesh) : stated_normals(mesh);
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
       const double length = normals.row(v).norm();
       if (length > 0.0) mesh.points.row(v) += options.displacement * noise(v, 0) / length * normals.row(v);

@@ -14,33 +14,6 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-SpokeMeasure measure_of(const Scalars& numbers) {
-  SpokeMeasure measure;
-  double squares = 0.0;
-  double sum = 0.0;
-  Index count = 0;
-  for (Index vertex = 0; vertex < static_cast<Index>(numbers.size()); ++vertex) {
-    const double number = numbers(vertex);
-    if (std::isnan(number)) continue;
-    sum += number;
-    squares += number * number;
-    ++count;
-    if (measure.worst_vertex >= 0 && number <= measure.max) continue;
-    measure.max = number;
-    measure.worst_vertex = vertex;
-  }
-  if (count == 0) return measure;
-  measure.mean = sum / count;
-  measure.rms = std::sqrt(squares / count);
-  return measure;
-}
-
-/// NaN where the surface has no normal.
-double angle_to(const Eigen::RowVector3d& direction, const Eigen::RowVector3d& normal) {
-  if (!(normal.squaredNorm() > 0.0)) return kNone;
-  return std::atan2(direction.cross(normal).norm(), direction.dot(normal));
-}
-
 /// |p - p'| / r for one atom (MedialErrors::shifts).
 double shift_of(const MedialBoundary& boundary, const SpokePair& pair, const Values& reached, const Values& normals) {
   const Eigen::RowVector3d up_normal = normals.row(pair.up);
@@ -69,17 +42,17 @@ MedialErrors measure_medial_errors(const MedialBoundary& boundary, const Topolog
   errors.shifts = Scalars::Constant(count, kNone);
   for (Index vertex = 0; vertex < count; ++vertex) {
     errors.distances(vertex) = (reached.row(vertex) - boundary.mesh.points.row(vertex)).norm();
-    errors.angles(vertex) = angle_to(boundary.directions.row(vertex), normals.row(vertex));
+    errors.angles(vertex) = angle_between(boundary.directions.row(vertex), normals.row(vertex));
   }
   for (const SpokePair& pair : spoke_pairs(boundary)) {
     const double shift = shift_of(boundary, pair, reached, normals);
     errors.shifts(pair.up) = shift;
     errors.shifts(pair.down) = shift;
   }
-  errors.distance = measure_of(errors.distances);
-  errors.distance_share = measure_of(errors.distances.cwiseQuotient(boundary.radii));
-  errors.angle = measure_of(errors.angles);
-  errors.shift = measure_of(errors.shifts);
+  errors.distance = measure_numbers(errors.distances);
+  errors.distance_share = measure_numbers(errors.distances.cwiseQuotient(boundary.radii));
+  errors.angle = measure_numbers(errors.angles);
+  errors.shift = measure_numbers(errors.shifts);
   return errors;
 }
 
@@ -90,6 +63,15 @@ MedialSurface medial_surface(const MedialModel& model, const InterpolateOptions&
   MedialErrors errors = measure_medial_errors(boundary, surface.topology, surface.scheme, surface.mesh.points);
   report_progress(progress, 1.0);
   return {std::move(boundary), std::move(surface), std::move(errors)};
+}
+
+TurnReport turn_to_spokes(MedialSurface& made, const TurnOptions& options, const Progress& progress) {
+  constexpr double kTurned = 0.9;  // of the time
+  InterpolatedMesh& surface = made.surface;
+  TurnReport report = turn_normals(surface, made.boundary.directions, options, progress_within(progress, 0.0, kTurned));
+  made.errors = measure_medial_errors(made.boundary, surface.topology, surface.scheme, surface.mesh.points);
+  report_progress(progress, 1.0);
+  return report;
 }
 
 }  // namespace batten

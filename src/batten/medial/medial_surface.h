@@ -2,18 +2,11 @@
 #pragma once
 #include <vector>
 
-#include "batten/interpolate/interpolated_mesh.h"
+#include "batten/interpolate/local_normals.h"
 #include "batten/medial/medial_boundary.h"
+#include "batten/mesh/vertex_measure.h"
 
 namespace batten {
-
-/// The greatest, the mean and the root of the mean square of numbers at vertices, without those that are NaN.
-struct SpokeMeasure {
-  double max = 0.0;
-  double mean = 0.0;
-  double rms = 0.0;
-  Index worst_vertex = -1;  ///< -1 where there is no number
-};
 
 /// Thall's metrics at each spoke's end: how well the surface fits the atoms. NaN where one has no meaning.
 struct MedialErrors {
@@ -23,10 +16,10 @@ struct MedialErrors {
   /// positions b and normals n: it minimises sum |p' + s r_k n_k - b_k|^2 over p' and the scale s, where r_k are the
   /// lengths of the two spokes and r their mean.
   Scalars shifts;
-  SpokeMeasure distance;
-  SpokeMeasure distance_share;  ///< the distance divided by the spoke's length
-  SpokeMeasure angle;
-  SpokeMeasure shift;
+  VertexMeasure distance;
+  VertexMeasure distance_share;  ///< the distance divided by the spoke's length
+  VertexMeasure angle;
+  VertexMeasure shift;
 };
 
 /// control: V'-by-3, control points of `topology`, whose first rows belong to the vertices of `boundary.mesh`.
@@ -53,5 +46,9 @@ inline InterpolateOptions medial_interpolation() {
 /// Throws what medial_boundary and interpolate() throw. A model of 500 atoms takes some milliseconds.
 MedialSurface medial_surface(const MedialModel& model, const InterpolateOptions& options = medial_interpolation(),
                              const Progress& progress = {});
+
+/// Turns the surface's normals to the directions of the spokes, and measures the errors again. Returns what was turned
+/// and how far off normals were. Throws what turn_normals() throws.
+TurnReport turn_to_spokes(MedialSurface& made, const TurnOptions& options = {}, const Progress& progress = {});
 
 }  // namespace batten
