@@ -52,6 +52,7 @@ enum class Coloring {
   Gaussian,   ///< Gaussian curvature of the limit surface
   Valence,    ///< edges at each vertex; at a boundary twice the faces, so that regular is the same
   Sharpness,  ///< of creases and corners
+  Normals,    ///< angle between each limit normal and the one wanted
   Zebra,      ///< bands that the surface mirrors
   Checker     ///< squares of the texture coordinates
 };
@@ -71,9 +72,21 @@ struct PictureArguments {
   int turntable = 0;  ///< pictures around; 0: one picture
 };
 
+/// The words of --normals that name no file.
+inline constexpr const char* kNormalsOfMesh = "mesh";
+inline constexpr const char* kNormalsEstimated = "estimate";
+
+/// Normals that the surface shall have.
+struct NormalArguments {
+  std::string source;      ///< empty: none; kNormalsOfMesh, kNormalsEstimated or a mesh file
+  double tolerance = 0.0;  ///< in degrees
+  bool relax = true;       ///< soften the ripples
+};
+
 struct InterpolateArguments {
   CommonArguments common;
   PictureArguments picture;
+  NormalArguments normals;
   InterpolateOptions options;
   std::string plot;  ///< residual against iteration
   bool compare_methods = false;
@@ -187,9 +200,11 @@ struct MedialArguments {
   PictureArguments picture;
   int levels = -1;  ///< -1: write the control mesh, or for GLB at most 3
   std::optional<MedialColoring> coloring;
-  std::string sheet;     ///< mesh of the medial sheet
-  std::string model;     ///< the model again
-  int sheet_levels = 0;  ///< of these two
+  bool normals = false;           ///< turned to the spokes
+  double normal_tolerance = 0.0;  ///< in degrees
+  std::string sheet;              ///< mesh of the medial sheet
+  std::string model;              ///< the model again
+  int sheet_levels = 0;           ///< of these two
 };
 
 struct InfoArguments {

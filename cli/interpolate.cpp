@@ -11,6 +11,7 @@
 #include "cli/compare.h"
 #include "cli/interpolation_rows.h"
 #include "cli/job.h"
+#include "cli/normals.h"
 #include "cli/picture.h"
 #include "cli/plots.h"
 #include "cli/surface_output.h"
@@ -106,48 +107,71 @@ nlohmann::ordered_json report_json(const InterpolateArguments& arguments, const 
   return json;
 }
 
+/// The surface of the points, and what became of it where normals are wanted.
+struct InterpolationRun {
+  const InterpolateArguments& arguments;
+  const Topology& topology;  ///< of the mesh given
+  const Scheme& scheme;
+  InterpolatedMesh result;
+  Topology solved;  ///< of the control mesh before normals were turned
+  std::optional<TurnReport> turned;
+
+  bool refined_twice() const { return result.topology.vertex_count() != solved.vertex_count(); }
+};
+
 /// The surface with the points that it passes through and its control mesh; without these two where colours show
 /// numbers.
-Subject subject_of(const Mesh& given, const InterpolatedMesh& result, const PictureArguments& picture) {
+Subject subject_of(const Mesh& given, const InterpolationRun& run) {
+  const InterpolatedMesh& result = run.result;
   Subject subject;
   subject.control = &result.mesh;
   subject.topology = result.topology;
   subject.scheme = result.scheme;
   subject.targets = &given.points;
-  if (picture.coloring == Coloring::None) {
+  if (run.arguments.picture.coloring == Coloring::None) {
     subject.markers = given.points;
     subject.draw_control = true;
   }
+  if (run.arguments.picture.coloring == Coloring::Normals) show_angles(run.turned->after, run.solved, subject);
   subject.before = &given;
   subject.before_caption = "the mesh given";
   subject.after_caption = "the surface through its points";
   return subject;
 }
 
-/// "8 components once, where alpha acts: 1,642 vertices became 2,130, 1,500 faces became 2,400"
-std::string refined_text(const Topology& topology, const InterpolatedMesh& result) {
-  const std::vector<SingularReport>& singular = result.reports.front().singular;
-  const auto count = std::count_if(singular.begin(), singular.end(),
-                                   [](const SingularReport& one) { return one.treatment == SingularTreatment::Alpha; });
-  const std::string what = result.topology.face_count() == topology.half_edge_count()
-                               ? std::string("the whole mesh")
-                               : count_of(count, "component", "components");
-  return fmt::format("{} once, where alpha acts: {} became {}, {} became {}", what,
-                     count_of(topology.vertex_count(), "vertex", "vertices"), grouped(result.topology.vertex_count()),
-                     count_of(topology.face_count(), "face", "faces"), grouped(result.topology.face_count()));
+/// "1,642 vertices became 2,130, 1,500 faces became 2,400"
+std::string growth_text(const Topology& before, const Topology& after) {
+  return fmt::format("{} became {}, {} became {}", count_of(before.vertex_count(), "vertex", "vertices"),
+                     grouped(after.vertex_count()), count_of(before.face_count(), "face", "faces"),
+                     grouped(after.face_count()));
 }
 
-void print_table(const Topology& topology, const Scheme& scheme, const InterpolatedMesh& result,
-                 const std::string& written, const Job& job) {
-  const std::vector<InterpolationReport>& reports = result.reports;
-  const SolveReport& solve = reports.front().solve;
+/// "8 components once, where alpha acts: ..."
+std::string refined_text(const InterpolationRun& run) {
+  const std::vector<SingularReport>& singular = run.result.reports.front().singular;
+  const auto count = std::count_if(singular.begin(), singular.end(),
+                                   [](const SingularReport& one) { return one.treatment == SingularTreatment::Alpha; });
+  const std::string what = run.solved.face_count() == run.topology.half_edge_count()
+                               ? std::string("the whole mesh")
+                               : count_of(count, "component", "components");
+  return what + " once, where alpha acts: " + growth_text(run.topology, run.solved);
+}
+
+void print_table(const InterpolationRun& run, const std::string& written, const Job& job) {
+  const std::vector<InterpolationReport>& reports = run.result.reports;
   Table table;
-  table.add("mesh", mesh_text(topology));
-  table.add("scheme", scheme_text(scheme));
-  table.add("method", method_text(solve));
+  table.add("mesh", mesh_text(run.topology));
+  table.add("scheme", scheme_text(run.scheme));
+  table.add("method", method_text(reports.front().solve));
   add_error_rows(table, reports);
   add_all_singular_rows(table, reports);
-  if (result.is_refined) table.add("refined", refined_text(topology, result));
+  if (run.result.is_refined) table.add("refined", refined_text(run));
+  if (run.turned) {
+    add_normal_rows(*run.turned, table);
+    add_angle_rows(*run.turned, table);
+  }
+  if (run.refined_twice())
+    table.add("refined", "twice, so that normals can turn: " + growth_text(run.solved, run.result.topology));
   if (!written.empty()) table.add("written", written);
   job.print(table);
 }
@@ -205,17 +229,29 @@ int run_interpolate(const InterpolateArguments& arguments) {
   const bool drawn = !arguments.picture.path.empty();
   const Mesh given = drawn ? job.mesh : Mesh();
   const Points targets = arguments.compare_methods ? job.mesh.points : Points(0, 3);
-  const InterpolatedMesh result = solve(arguments, topology, scheme, job);
+  const Values wanted = wanted_for(arguments.normals, topology, job);
+  InterpolatedMesh solved = solve(arguments, topology, scheme, job);
+  const Topology control = solved.topology;
+  InterpolationRun run{arguments, topology, scheme, std::move(solved), control, {}};
+  const InterpolatedMesh& result = run.result;
+  const bool compared = drawn && arguments.picture.before_after && wanted.rows() > 0;
+  const InterpolatedMesh before = compared ? result : InterpolatedMesh{{}, topology, scheme, {}, false};
+  if (wanted.rows() > 0) run.turned = turn_to(wanted, arguments.normals, run.result, job);
   const std::string written = write_surface({result.mesh, result.topology, result.scheme}, arguments.levels, job);
   if (drawn) {
-    draw(subject_of(given, result, arguments.picture), arguments.picture, job);
+    if (compared) {
+      draw_turned(before, result, *run.turned, arguments.picture, job);
+    } else {
+      draw(subject_of(given, run), arguments.picture, job);
+    }
     job.stages.finish("picture");
   }
   const InterpolationReport& points = result.reports.front();
   const std::vector<MethodResult> methods = compare_and_plot(arguments, topology, scheme, targets, points, job);
-  print_table(topology, scheme, result, written, job);
+  print_table(run, written, job);
   if (arguments.compare_methods) print_methods(methods, points.diagonal, common);
   nlohmann::ordered_json report = report_json(arguments, topology, scheme, result);
+  if (run.turned) report["normals"] = normals_json(*run.turned);
   if (arguments.compare_methods) report["compared_methods"] = methods_json(methods);
   job.report(report);
   require_reached(result.reports, arguments.options.tolerance,

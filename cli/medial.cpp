@@ -10,9 +10,9 @@
 #include "batten/medial/medial_refinement.h"
 #include "batten/medial/medial_surface.h"
 #include "batten/medial/spoke_mesh.h"
-#include "batten/mesh/vertex_fields.h"
 #include "cli/interpolation_rows.h"
 #include "cli/job.h"
+#include "cli/normals.h"
 #include "cli/picture.h"
 #include "cli/surface_output.h"
 
@@ -27,6 +27,8 @@ struct MedialRun {
   const MedialModel& model;
   const MedialSurface& made;
   SpokeCheck check;
+  Topology solved;                   ///< of the control mesh before normals were turned
+  std::optional<TurnReport> turned;  ///< with --normals
 };
 
 std::string name_at(const MedialRun& run, Index vertex) {
@@ -185,12 +187,8 @@ void draw_surface(const MedialRun& run, Job& job) {
   after.levels = run.arguments.levels;
   after.after_caption = picture.before_after ? "the surface" : "";
   if (run.arguments.coloring) {
-    after.numbers = shown_numbers(run, *run.arguments.coloring, after.numbers_scale);
-    // No number is where there is no normal, and where the surface had to be refined: there on edges, then in faces.
-    const Index given = run.made.boundary.mesh.vertex_count();
-    after.numbers.conservativeResize(surface.topology.vertex_count());
-    after.numbers.tail(surface.topology.vertex_count() - given).setConstant(std::nan(""));
-    for (int round = 0; round < 2; ++round) fill_from_neighbours(surface.topology, after.numbers);
+    const Scalars numbers = shown_numbers(run, *run.arguments.coloring, after.numbers_scale);
+    after.numbers = spread_numbers(numbers, run.solved, surface.scheme.kind, surface.topology.vertex_count());
   }
   std::vector<Subject> subjects;
   const Mesh spokes = picture.before_after ? spoke_mesh(run.model) : Mesh();
@@ -213,22 +211,34 @@ int run_medial(const MedialArguments& arguments) {
   MedialModel model;
   const auto read = [&] { model = read_medial(common.input, ProgressBar("reading", common.quiet).callback()); };
   Job job("medial", common, read, UpAxis::Z);
-  const MedialSurface made =
+  MedialSurface made =
       medial_surface(model, medial_interpolation(), ProgressBar("interpolating", common.quiet).callback());
-  const MedialRun run{arguments, model, made, check_spokes(made.boundary)};
+  MedialRun run{arguments, model, made, check_spokes(made.boundary), made.surface.topology, {}};
   job.stages.finish("solve");
+  if (arguments.normals) {
+    run.turned = turn_to_spokes(made, turn_options(arguments.normal_tolerance),
+                                ProgressBar("turning normals", common.quiet).callback());
+    job.stages.finish("normals");
+  }
   Table table;
   table.add("model", model_text(model));
   table.add("mesh", size_text(made.boundary.mesh));
   add_check_rows(run, table);
   add_error_rows(run, table);
+  if (run.turned) {
+    table.add("before", fmt::format("at most {:.3g} degrees between spoke and normal before they turned (mean {:.3g})",
+                              kDegrees * run.turned->before_angle.max, kDegrees * run.turned->before_angle.mean));
+    add_normal_rows(*run.turned, table);
+  }
   const InterpolatedMesh& surface = made.surface;
   const std::string written = write_surface({surface.mesh, surface.topology, surface.scheme}, arguments.levels, job);
   if (!written.empty()) table.add("written", written);
   write_sheet(run, table, job);
   if (!arguments.picture.path.empty()) draw_surface(run, job);
   job.print(table);
-  job.report(report_json(run));
+  nlohmann::ordered_json report = report_json(run);
+  if (run.turned) report["normals"] = normals_json(*run.turned);
+  job.report(report);
   require_reached(surface.reports, medial_interpolation().tolerance);
   return 0;
 }

@@ -26,12 +26,16 @@ void add_medial(CLI::App& app, MedialArguments& arguments, int& status) {
   add_output_file(verb, "--model", arguments.model, "write the model again, as .srep.json or .json", {".json"});
   verb.add_option("--sheet-levels", arguments.sheet_levels, "refine the sheet of --sheet and --model so often")
       ->check(whole_number(0, 10));
+  verb.add_flag("--normals", arguments.normals,
+                "refine twice and turn the surface's normals to the directions of the spokes");
+  add_normal_tolerance(verb, arguments.normal_tolerance);
   add_picture(verb, arguments.picture);
   add_range(verb, arguments.picture);
   add_choice(verb, "--color", arguments.coloring, kMedialColorings,
              "colour the surface by how far its normals or its atoms are off, or by the radius");
   set_run(verb, arguments.common, status, [&] {
     require_with(verb, {"--sheet-levels"}, {"--sheet", "--model"});
+    require_with(verb, {"--normal-tolerance"}, {"--normals"});
     require_with(verb, {"--levels"}, {"--output", "--picture"});
     return run_medial(arguments);
   });

@@ -30,10 +30,10 @@ const Names<FaceVaryingRule> kFaceVarying{{"none", FaceVaryingRule::None},
 const Names<AttributeRule> kAttributes{{"midpoint", AttributeRule::Midpoint},
                                        {"scheme", AttributeRule::Scheme},
                                        {"interpolated", AttributeRule::Interpolated}};
-const Names<Coloring> kColorings{{"error", Coloring::Error},     {"moved", Coloring::Moved},
-                                 {"mean", Coloring::Mean},       {"gaussian", Coloring::Gaussian},
-                                 {"valence", Coloring::Valence}, {"sharpness", Coloring::Sharpness},
-                                 {"zebra", Coloring::Zebra},     {"checker", Coloring::Checker}};
+const Names<Coloring> kColorings{
+    {"error", Coloring::Error},       {"moved", Coloring::Moved},     {"mean", Coloring::Mean},
+    {"gaussian", Coloring::Gaussian}, {"valence", Coloring::Valence}, {"sharpness", Coloring::Sharpness},
+    {"zebra", Coloring::Zebra},       {"checker", Coloring::Checker}, {"normals", Coloring::Normals}};
 const Names<View> kViews{{"front", View::Front}, {"back", View::Back}, {"left", View::Left},    {"right", View::Right},
                          {"top", View::Top},     {"iso", View::Iso},   {"bottom", View::Bottom}};
 
@@ -253,6 +253,8 @@ void set_run(CLI::App& verb, CommonArguments& common, int& status, const std::fu
     const CLI::Option* color = verb.get_option_no_throw("--color");
     const std::string coloring = color != nullptr && color->count() > 0 ? color->as<std::string>() : "";
     if (coloring == "zebra" || coloring == "checker") require_alone(verb, "--color " + coloring, {"--range"});
+    if (coloring == "normals" && !is_given(verb, "--normals"))
+      throw UsageError("--color normals shows how far normals are from those of interpolate's --normals");
     if (is_given(verb, "--turntable")) require_picture_files(verb);
     if (is_given(verb, "--output") && verb.get_option_no_throw("--output-format") != nullptr) {
       const std::string format = file_format(common.output, common.output_format);

@@ -55,6 +55,13 @@ void add_coloring(CLI::App& verb, PictureArguments& picture);
 void add_picture(CLI::App& verb, PictureArguments& picture);
 /// Adds an option that takes a number, or a number with a per cent sign: a share of the diagonal.
 void add_length(CLI::App& verb, const std::string& name, std::optional<Length>& target, const std::string& help);
+/// Adds how near normals have to come.
+template <typename Target>
+void add_normal_tolerance(CLI::App& verb, Target& target) {
+  verb.add_option("--normal-tolerance", target, "leave normals alone that are so near, and turn others only so far; 0")
+      ->check(number_in(0.0, 180.0))
+      ->option_text("DEGREES");
+}
 /// Lets the verb run `run` once its command line is known to make sense: check_files, and no option that does nothing
 /// for want of another one.
 void set_run(CLI::App& verb, CommonArguments& common, int& status, const std::function<int()>& run);

@@ -159,10 +159,11 @@ void draw_row(const std::vector<Subject>& subjects, const PictureArguments& argu
                      arguments.coloring == Coloring::Zebra ? Shading::Zebra : Shading::Plain});
   }
   std::optional<ColorScale> scale;
-  if (!subjects.empty() && subjects.back().numbers.size() > 0) {
-    ScaleRequest request = subjects.back().numbers_scale;
-    request.range = arguments.range;
-    scale = share_scale(scenes, request);
+  std::optional<ScaleRequest> request;
+  if (!subjects.empty()) request = surface_scale(subjects.back(), arguments.coloring);
+  if (request) {
+    request->range = arguments.range;
+    scale = share_scale(scenes, *request);
   }
   draw_shots(shots, render_options(arguments, Layout(shots.size()), job), scale ? &*scale : nullptr, arguments, job);
 }

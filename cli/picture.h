@@ -35,8 +35,8 @@ void draw(const Subject& subject, const PictureArguments& arguments, Job& job);
 ScaleRequest mean_curvature_scale();
 
 /// Several side by side, in two rows if there are more than three, each with its after_caption, from one viewpoint.
-/// Their numbers have one scale, that of the last subject's request over the numbers of all, and its bar; colourings
-/// have none.
+/// Their numbers, given or of a colouring, have one scale, that of the last subject's request over the numbers of all,
+/// and its bar.
 void draw_row(const std::vector<Subject>& subjects, const PictureArguments& arguments, Job& job);
 
 }  // namespace batten::cli

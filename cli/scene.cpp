@@ -286,6 +286,12 @@ Scene scene_of(const Subject& subject, const PictureArguments& arguments, bool q
   return scene;
 }
 
+std::optional<ScaleRequest> surface_scale(const Subject& subject, Coloring coloring) {
+  if (subject.numbers.size() > 0) return subject.numbers_scale;
+  if (is_field(coloring)) return scale_request(coloring, subject.scheme.kind);
+  return std::nullopt;
+}
+
 Scene scene_before(const Subject& subject) {
   Scene scene;
   if (subject.before != nullptr) scene.surface = bare(*subject.before);

@@ -54,6 +54,12 @@ void add_interpolate(CLI::App& app, InterpolateArguments& arguments, int& status
   add_choice(verb, "--on-singular", options.on_singular, kOnSingular,
              "where no surface passes through such points; alpha if not given");
   add_choice(verb, "--limit-masks", options.masks, kMasks, "exact at darts and valence 2, or OpenSubdiv's masks there");
+  add_input_file(verb, "--normals", arguments.normals.source,
+                 "refine twice and turn the surface's normals to the mesh's own, to estimates, or to those of a file")
+      ->option_text("mesh|estimate|FILE");
+  add_normal_tolerance(verb, arguments.normals.tolerance);
+  verb.add_flag("!--keep-ripples", arguments.normals.relax,
+                "turn normals and no more: in a fraction of the time and the memory, with stronger ripples");
   verb.add_flag("--compare-methods", arguments.compare_methods,
                 "solve by the papers' iterations and a direct solver too, and print (and plot) how they did");
   add_output_file(verb, "--plot", arguments.plot, "plot the residual against the iteration", {".png", ".svg"});
@@ -64,6 +70,7 @@ void add_interpolate(CLI::App& app, InterpolateArguments& arguments, int& status
   set_run(verb, arguments.common, status, [&] {
     require_output(verb, {"--compare-methods"});
     require_with(verb, {"--levels"}, {"--output"});
+    require_with(verb, {"--normal-tolerance", "--keep-ripples"}, {"--normals"});
     if (arguments.options.method != SolveMethod::Jacobi) require_with(verb, {"--omega"}, {"--compare-methods"});
     return run_interpolate(arguments);
   });

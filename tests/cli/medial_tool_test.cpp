@@ -32,6 +32,22 @@ TEST_F(MedialTool, WritesTheSurfaceThroughTheSpokesEnds) {
   }
 }
 
+TEST_F(MedialTool, TurnsNormalsToTheSpokes) {
+  const Outcome result = run("medial " + kModels + "bean.srep.json --normals -o a.ply --report r.json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const MedialBoundary boundary = medial_boundary(read_medial(kModels + "bean.srep.json"));
+  const Mesh written = read_mesh(path("a.ply"));
+  const Topology topology(written);
+  const MedialErrors errors = measure_medial_errors(boundary, topology, choose_scheme(written), written.points);
+  EXPECT_LT(errors.distance.max, 1e-10);
+  EXPECT_LT(errors.angle.max, 1e-10);
+  const auto report = nlohmann::json::parse(text_of(path("r.json")));
+  EXPECT_EQ(report.at("normals").at("turned"), boundary.mesh.vertex_count());
+  EXPECT_GT(report.at("normals").at("angle_before").at("max"), 10.0);
+  EXPECT_LT(report.at("angle").at("max"), 1e-8);
+  EXPECT_NE(result.out.find("before    at most 14.4 degrees"), std::string::npos) << result.out;
+}
+
 TEST_F(MedialTool, TableSaysWhatWasMeasured) {
   const std::string out = run("medial " + kModels + "fork.json").out;
   EXPECT_NE(out.find("107 atoms in 4 figures"), std::string::npos) << out;
