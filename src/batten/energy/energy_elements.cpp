@@ -1,115 +1,17 @@
 #include "batten/energy/energy_elements.h"
 
-#include <numeric>
-#include <string>
-#include <string_view>
-#include <unordered_map>
-
-#include "batten/error.h"
-#include "batten/parallel/parallel.h"
 #include "batten/patch/face_types.h"
 
 namespace batten {
 
-namespace {
-
-constexpr std::ptrdiff_t kFaceBlock = 1024;
-
-struct LayoutHash {
-  std::size_t operator()(const PatchLayout& layout) const {
-    return std::hash<std::string_view>()({reinterpret_cast<const char*>(layout.data()), layout.size()});
-  }
-};
-
-/// Matrices of n^2 numbers are summed in O(n^3), which would take minutes beyond.
-const RingTypes& small_rings(const SurfacePatches& patches) {
-  constexpr Index kMostPoints = 512;
-  const FaceTypes& faces = patches.face_types();
-  for (Index f = 0; f < patches.base().face_count(); ++f) {
-    if (faces.type(f) == RingTypes::kPatch) continue;
-    const Index points = faces.ring_types().step(faces.type(f)).ring_size;
-    if (points <= kMostPoints) continue;
-    throw Error(ErrorCode::TooLarge, "face " + std::to_string(patches.control_face(f)) + " depends on " +
-                                         std::to_string(points) + " points, and energies take at most " +
-                                         std::to_string(kMostPoints) +
-                                         "; cut the polygon, or the fan around the vertex, with so many sides");
-  }
-  return faces.ring_types();
-}
-
-}  // namespace
-
 EnergyElements::EnergyElements(const SurfacePatches& patches, std::optional<int> cutoff)
-    : energies_(ring_energies(patches.quads(), small_rings(patches), cutoff)) {
-  const Buffer<std::uint8_t>& holes = patches.holes();
-  for (Index f = 0; f < patches.base().face_count(); ++f) {
-    if (!holes.empty() && holes[f] != 0) continue;
-    base_faces_.push_back(f);
-    faces_.push_back(patches.control_face(f));
+    : FaceElements(patches), energies_(ring_energies(patches.quads(), patches.face_types().ring_types(), cutoff)) {
+  for (Index kind = static_cast<Index>(energies_.size()); kind < kind_count(); ++kind) {
+    energies_.push_back(patch_energy(patches.quads(), layout(kind)));
   }
-  number_kinds(patches);
-  list_vertices(patches);
-  list_uses(patches.base().vertex_count());
-}
-
-/// Layouts get their numbers in the order of the faces, whatever thread found them.
-void EnergyElements::number_kinds(const SurfacePatches& patches) {
-  const FaceTypes& types = patches.face_types();
-  kinds_.resize(base_faces_.size());
-  Buffer<PatchLayout> layouts(base_faces_.size());
-  parallel_for(
-      count(),
-      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-        for (std::ptrdiff_t i = begin; i < end; ++i) {
-          kinds_[i] = types.type(base_faces_[i]);
-          if (kinds_[i] == RingTypes::kPatch) layouts[i] = layout_of(patches.quads(), types.patch(base_faces_[i]));
-        }
-      },
-      kFaceBlock);
-  std::unordered_map<PatchLayout, Index, LayoutHash> numbers;
-  for (Index i = 0; i < count(); ++i) {
-    if (kinds_[i] != RingTypes::kPatch) continue;
-    const auto [place, is_new] = numbers.try_emplace(layouts[i], static_cast<Index>(energies_.size()));
-    if (is_new) energies_.push_back(patch_energy(patches.quads(), layouts[i]));
-    kinds_[i] = place->second;
-  }
-}
-
-void EnergyElements::list_vertices(const SurfacePatches& patches) {
-  const FaceTypes& types = patches.face_types();
-  starts_.assign(static_cast<std::size_t>(count()) + 1, 0);
-  for (Index i = 0; i < count(); ++i) starts_[i + 1] = starts_[i] + energy(i).points.size();
-  vertices_.resize(starts_.back());
-  parallel_for(
-      count(),
-      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-        FaceRing scratch;
-        for (auto i = static_cast<Index>(begin); i < static_cast<Index>(end); ++i) {
-          const Buffer<Index>& points = energy(i).points;
-          Index* const to = vertices_.data() + starts_[i];
-          const Index face = base_faces_[i];
-          if (types.type(face) == RingTypes::kPatch) {
-            const RegularPatch patch = types.patch(face);
-            for (std::size_t p = 0; p < points.size(); ++p) to[p] = patch.rows[points[p]];
-          } else {
-            const std::span<const Index> ring = types.ring(face, scratch);
-            for (std::size_t p = 0; p < points.size(); ++p) to[p] = ring[points[p]];
-          }
-        }
-      },
-      kFaceBlock);
-}
-
-void EnergyElements::list_uses(Index vertex_count) {
-  first_uses_.assign(static_cast<std::size_t>(vertex_count) + 1, 0);
-  for (const Index v : vertices_) ++first_uses_[v + 1];
-  std::partial_sum(first_uses_.begin(), first_uses_.end(), first_uses_.begin());
-  uses_.resize(vertices_.size());
-  Buffer<std::size_t> next(first_uses_.begin(), first_uses_.end() - 1);
-  for (Index i = 0; i < count(); ++i) {
-    Index place = 0;
-    for (const Index v : vertices(i)) uses_[next[v]++] = {i, place++};
-  }
+  std::vector<Buffer<Index>> points;
+  for (const FaceEnergy& energy : energies_) points.push_back(energy.points);
+  list_vertices(patches, points);
 }
 
 }  // namespace batten

@@ -169,35 +169,10 @@ void RingEnergyBuilder::cut_off_levels(EnergyKind kind, int levels) {
 
 }  // namespace
 
-PatchLayout layout_of(bool quads, const RegularPatch& patch) {
-  PatchLayout layout{};
-  std::int8_t count = 0;
-  for (int i = 0; i < patch_size(quads); ++i) {
-    if (patch.rows[i] == RegularPatch::kMissing) {
-      layout[i] = static_cast<std::int8_t>(RegularPatch::kMissing);
-      continue;
-    }
-    int first = 0;
-    while (patch.rows[first] != patch.rows[i]) ++first;
-    layout[i] = first < i ? layout[first] : count++;
-  }
-  return layout;
-}
-
 FaceEnergy patch_energy(bool quads, const PatchLayout& layout) {
   FaceEnergy energy;
-  const int size = patch_size(quads);
-  std::array<Index, kQuadPatchSize> rows{};
-  for (int i = 0; i < size; ++i) {
-    rows[i] = layout[i];
-    if (layout[i] == static_cast<std::int8_t>(energy.points.size())) energy.points.push_back(i);
-  }
-  const auto count = static_cast<int>(energy.points.size());
-  Values points = Values::Zero(size, count);
-  for (int i = 0; i < size; ++i) {
-    if (rows[i] != RegularPatch::kMissing) points(i, rows[i]) = 1.0;
-  }
-  complete_patch(quads, rows.data(), points.data(), count);
+  energy.points = distinct_points(quads, layout);
+  const MatrixXd points = layout_points(quads, layout);
   for (const EnergyKind kind : kKinds) {
     energy.matrices[static_cast<std::size_t>(kind)] = symmetric_part(pulled_back(regular_energy(quads, kind), points));
   }

@@ -7,6 +7,7 @@
 
 #include "batten/buffer.h"
 #include "batten/energy/energy_kind.h"
+#include "batten/energy/face_elements.h"
 #include "batten/patch/regular_patch.h"
 #include "batten/patch/ring_types.h"
 
@@ -19,11 +20,6 @@ struct FaceEnergy {
 
   const Eigen::MatrixXd& matrix(EnergyKind kind) const { return matrices[static_cast<std::size_t>(kind)]; }
 };
-
-/// Which rows of a regular patch are missing (RegularPatch::kMissing) and which are the same vertex: each row has the
-/// number of its vertex, in the order in which they come. Equal layouts have equal energies.
-using PatchLayout = std::array<std::int8_t, kQuadPatchSize>;
-PatchLayout layout_of(bool quads, const RegularPatch& patch);
 
 /// O(1).
 FaceEnergy patch_energy(bool quads, const PatchLayout& layout);

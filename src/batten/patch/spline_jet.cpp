@@ -14,6 +14,31 @@ inline CubicJet spline_jet(double t) {
           {s, 3.0 * t - 2.0, 3.0 * s - 2.0, t}};
 }
 
+/// The highest derivatives of a triangle's patch at (0, 0); numbers of points as in kTriangleLattice. The second ones
+/// are along u, along v and mixed; the fourth ones, which are constant, along u and along v.
+struct BoxSplineEnds {
+  Double4 uu, vv, diagonal, uv, uuu, uuv, uvv, vvv, uuuu, vvvv;
+};
+
+template <typename Point>
+inline BoxSplineEnds box_spline_ends(const Point& p) {
+  const auto bend = [](const Double4& before, const Double4& at, const Double4& after) {
+    return (before + after) - 2.0 * at;
+  };
+  BoxSplineEnds ends;
+  ends.uu = bend(p(6), p(0), p(1));
+  ends.vv = bend(p(3), p(0), p(2));
+  ends.diagonal = bend(p(4), p(0), p(8));
+  ends.uv = 0.5 * (ends.uu + ends.vv - ends.diagonal);
+  ends.uuv = bend(p(8), p(2), p(9)) - ends.uu;
+  ends.uvv = bend(p(4), p(1), p(9)) - ends.vv;
+  ends.uuu = bend(p(3), p(4), p(5)) - ends.uu + ends.uuv;
+  ends.vvv = bend(p(6), p(8), p(10)) - ends.vv + ends.uvv;
+  ends.uuuu = bend(p(0), p(1), p(7)) - ends.uu - ends.uuu;
+  ends.vvvv = bend(p(0), p(2), p(11)) - ends.vv - ends.vvv;
+  return ends;
+}
+
 }  // namespace
 
 void quad_jet_weights(double u, double v, JetWeights& weights) {
@@ -31,16 +56,63 @@ void quad_jet_weights(double u, double v, JetWeights& weights) {
   }
 }
 
-/// Of four basis functions at a time, as the jet of a patch whose points are the rows of the identity.
+namespace {
+
+constexpr std::array<Index, kTrianglePatchSize> kPatchRows{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
+using PatchPoints = std::array<Double4, kTrianglePatchSize>;
+
+/// Four basis functions of a triangle's patch, those from 4 four on: the patch whose points are rows of the identity.
+PatchPoints four_functions(int four) {
+  PatchPoints points{};
+  for (int k = 0; k < 4; ++k) points[4 * four + k][k] = 1.0;
+  return points;
+}
+
+void quad_third_weights(double u, double v, ThirdWeights& weights) {
+  static constexpr double kThird[4] = {-1.0, 3.0, -3.0, 1.0};
+  const CubicJet along = spline_jet(u);
+  const CubicJet across = spline_jet(v);
+  for (int j = 0; j < 4; ++j) {
+    for (int i = 0; i < 4; ++i) {
+      weights.duuu[4 * j + i] = kThird[i] * across.value[j];
+      weights.duuv[4 * j + i] = along.second[i] * across.first[j];
+      weights.duvv[4 * j + i] = along.first[i] * across.second[j];
+      weights.dvvv[4 * j + i] = along.value[i] * kThird[j];
+    }
+  }
+}
+
+void triangle_third_weights(double u, double v, ThirdWeights& weights) {
+  for (int four = 0; four < kTrianglePatchSize / 4; ++four) {
+    const PatchPoints points = four_functions(four);
+    const BoxSplineEnds ends = box_spline_ends([&](int i) { return points[i]; });
+    const Double4 duuu = ends.uuu + (2.0 * u + v) * ends.uuuu;
+    const Double4 duuv = ends.uuv + u * ends.uuuu;
+    const Double4 duvv = ends.uvv + v * ends.vvvv;
+    const Double4 dvvv = ends.vvv + (2.0 * v + u) * ends.vvvv;
+    for (int k = 0; k < 4; ++k) {
+      weights.duuu[4 * four + k] = duuu[k];
+      weights.duuv[4 * four + k] = duuv[k];
+      weights.duvv[4 * four + k] = duvv[k];
+      weights.dvvv[4 * four + k] = dvvv[k];
+    }
+  }
+}
+
+}  // namespace
+
+void third_weights(bool quads, double u, double v, ThirdWeights& weights) {
+  if (quads) return quad_third_weights(u, v, weights);
+  triangle_third_weights(u, v, weights);
+}
+
 void triangle_jet_weights(double u, double v, JetWeights& weights) {
   std::array<double, 16>* parts[6] = {&weights.value, &weights.du,  &weights.dv,
                                       &weights.duu,   &weights.duv, &weights.dvv};
-  static constexpr std::array<Index, kTrianglePatchSize> kRows{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
   for (int four = 0; four < kTrianglePatchSize / 4; ++four) {
-    std::array<Double4, kTrianglePatchSize> points{};
-    for (int k = 0; k < 4; ++k) points[4 * four + k][k] = 1.0;
+    const PatchPoints points = four_functions(four);
     PatchJet functions;
-    triangle_jet(u, v, points.data(), kRows.data(), functions);
+    triangle_jet(u, v, points.data(), kPatchRows.data(), functions);
     for (int part = 0; part < 6; ++part) {
       for (int k = 0; k < 4; ++k) (*parts[part])[4 * four + k] = functions[part][k];
     }
@@ -74,22 +146,7 @@ void quad_jet(double u, double v, const Double4* points, const Index* rows, Patc
 /// the rest follows by integration (de Boor, Hoellig and Riemenschneider 1993, key BHR93).
 void triangle_jet(double u, double v, const Double4* points, const Index* rows, PatchJet& jet) {
   const auto p = [&](int i) { return points[rows[i]]; };
-  const auto bend = [](const Double4& before, const Double4& at, const Double4& after) {
-    return (before + after) - 2.0 * at;
-  };
-  // At (0, 0): along u, along v, along v - u, then how the first two change. Numbers as in kTriangleLattice.
-  const Double4 uu = bend(p(6), p(0), p(1));
-  const Double4 vv = bend(p(3), p(0), p(2));
-  const Double4 diagonal = bend(p(4), p(0), p(8));
-  const Double4 uv = 0.5 * (uu + vv - diagonal);
-  const Double4 uuv = bend(p(8), p(2), p(9)) - uu;
-  const Double4 uvv = bend(p(4), p(1), p(9)) - vv;
-  const Double4 uu_below = bend(p(3), p(4), p(5)) - uu;
-  const Double4 vv_left = bend(p(6), p(8), p(10)) - vv;
-  const Double4 uuu = uu_below + uuv;
-  const Double4 vvv = vv_left + uvv;
-  const Double4 uuuu = bend(p(0), p(1), p(7)) - uu - uuu;
-  const Double4 vvvv = bend(p(0), p(2), p(11)) - vv - vvv;
+  const auto [uu, vv, diagonal, uv, uuu, uuv, uvv, vvv, uuuu, vvvv] = box_spline_ends(p);
   const Double4 along = p(1) - p(6);
   const Double4 across = p(2) - p(3);
   const Double4 askew = p(4) - p(8);

@@ -23,6 +23,12 @@ inline void jet_weights(bool quads, double u, double v, JetWeights& weights) {
   triangle_jet_weights(u, v, weights);
 }
 
+/// The third derivatives likewise.
+struct ThirdWeights {
+  std::array<double, 16> duuu, duuv, duvv, dvvv;
+};
+void third_weights(bool quads, double u, double v, ThirdWeights& weights);
+
 /// Four cubic basis functions with their derivatives.
 struct CubicJet {
   double value[4], first[4], second[4];

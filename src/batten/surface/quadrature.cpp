@@ -51,9 +51,9 @@ struct Cell {
 
 class Filler {
  public:
-  Filler(const SurfacePatches& patches, const QuadratureOptions& options, SurfaceQuadrature& quadrature)
-      : types_(patches.face_types().ring_types()),
-        quads_(patches.quads()),
+  Filler(bool quads, const RingTypes& types, const QuadratureOptions& options, SurfaceQuadrature& quadrature)
+      : types_(types),
+        quads_(quads),
         levels_(options.levels),
         rule_(gauss_rule(options.points)),
         quadrature_(quadrature) {}
@@ -92,19 +92,31 @@ void require_in_range(const std::string& name, int number, int least, int most) 
                                           " " + name + ", not " + std::to_string(number));
 }
 
+void require_in_range(const QuadratureOptions& options) {
+  require_in_range("points along a side", options.points, 1, 16);
+  require_in_range("levels", options.levels, 0, 40);
+}
+
 }  // namespace
 
 SurfaceQuadrature surface_quadrature(const SurfacePatches& patches, const QuadratureOptions& options) {
-  require_in_range("points along a side", options.points, 1, 16);
-  require_in_range("levels", options.levels, 0, 40);
+  require_in_range(options);
   const FaceTypes& types = patches.face_types();
   SurfaceQuadrature quadrature;
-  Filler filler(patches, options, quadrature);
+  Filler filler(patches.quads(), types.ring_types(), options, quadrature);
   quadrature.starts.push_back(0);
   for (Index f = 0; f < patches.base().face_count(); ++f) {
     if (patches.holes().empty() || patches.holes()[f] == 0) filler.add(f, types.type(f), {}, 0);
     quadrature.starts.push_back(quadrature.places.size());
   }
+  return quadrature;
+}
+
+SurfaceQuadrature face_quadrature(bool quads, const RingTypes& types, Index type, const QuadratureOptions& options) {
+  require_in_range(options);
+  SurfaceQuadrature quadrature;
+  Filler(quads, types, options, quadrature).add(0, type, {}, 0);
+  quadrature.starts = {0, quadrature.places.size()};
   return quadrature;
 }
 

@@ -6,6 +6,8 @@
 
 namespace batten {
 
+class RingTypes;
+
 /// How exact a quadrature is.
 struct QuadratureOptions {
   /// Gauss points along each side of a cell: on regular faces polynomials of degree 2 points - 1 in u and in v (on
@@ -26,6 +28,10 @@ struct SurfaceQuadrature {
 /// O(places): points^2 on a regular face, some 3 levels as many beside an irregular vertex. Throws Error(BadArgument)
 /// for the Butterflies and for options out of range.
 SurfaceQuadrature surface_quadrature(const SurfacePatches& patches, const QuadratureOptions& options = {});
+
+/// That of one face of a ring type, or of a regular one (RingTypes::kPatch). Throws as surface_quadrature().
+SurfaceQuadrature face_quadrature(bool quads, const RingTypes& types, Index type,
+                                  const QuadratureOptions& options = {});
 
 /// The quadrature's weights times |du x dv| of the surface: the integral of f over the area is the sum of f at the
 /// places times these; their own sum is the area. Threaded.

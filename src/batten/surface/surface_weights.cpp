@@ -11,50 +11,16 @@
 #include "batten/parallel/parallel.h"
 #include "batten/patch/face_types.h"
 #include "batten/patch/halving.h"
-#include "batten/patch/spline_jet.h"
 #include "batten/progress.h"
+#include "batten/surface/face_jets.h"
 
 namespace batten {
 
 namespace {
 
-/// Derivatives' weights deep down are large, and shrink on their way up only as far as they sum to zero: without this,
-/// rounding would not shrink with them.
-void keep_sum_zero(std::vector<double>& weights) { weights[0] -= std::accumulate(weights.begin(), weights.end(), 0.0); }
-
-const std::array<double, 16>& part_of(const JetWeights& weights, JetPart part) {
-  switch (part) {
-    case JetPart::Point:
-      return weights.value;
-    case JetPart::Du:
-      return weights.du;
-    case JetPart::Dv:
-      return weights.dv;
-    case JetPart::Duu:
-      return weights.duu;
-    case JetPart::Duv:
-      return weights.duv;
-    default:
-      return weights.dvv;
-  }
-}
-
-/// Derivatives by parameters that run `scale` times as fast.
-double chain_factor(JetPart part, double scale) {
-  if (part == JetPart::Point) return 1.0;
-  return part == JetPart::Du || part == JetPart::Dv ? scale : scale * scale;
-}
-
-/// Weights of the points of a ring's child as weights of the ring's points.
-std::vector<double> to_ring(const RingTypes::Step& step, const Buffer<Index>& child,
-                            const std::vector<double>& weights) {
-  std::vector<double> of_ring(static_cast<std::size_t>(step.ring_size), 0.0);
-  for (std::size_t p = 0; p < child.size(); ++p) {
-    for (Index e = step.rows.starts[child[p]]; e < step.rows.starts[child[p] + 1]; ++e) {
-      of_ring[step.rows.columns[e]] += weights[p] * step.rows.weights[e];
-    }
-  }
-  return of_ring;
+JetRow row_of(JetPart part) {
+  constexpr JetRow kRows[] = {JetRow::Value, JetRow::Du, JetRow::Dv, JetRow::Duu, JetRow::Duv, JetRow::Dvv};
+  return kRows[static_cast<int>(part)];
 }
 
 }  // namespace
@@ -70,12 +36,12 @@ struct SurfaceWeights::Parts {
 
   bool quads() const { return patches.quads(); }
   PlaceRows make_rows(const SurfacePlace& place, std::span<const JetPart> parts, FaceRing& scratch) const;
-  VertexWeights patch_row(const RegularPatch& patch, const std::array<double, 16>& weights) const;
+  VertexWeights patch_row(const RegularPatch& patch, const Eigen::RowVectorXd& weights) const;
   VertexWeights vertex_row(const SurfacePlace& place, JetPart part) const;
 };
 
 /// What is missing of the patch follows from the rest by reflection.
-VertexWeights SurfaceWeights::Parts::patch_row(const RegularPatch& patch, const std::array<double, 16>& weights) const {
+VertexWeights SurfaceWeights::Parts::patch_row(const RegularPatch& patch, const Eigen::RowVectorXd& weights) const {
   VertexWeights row;
   const int count = patches.patch_size();
   const auto* const end = patch.rows.data() + count;
@@ -107,47 +73,26 @@ VertexWeights SurfaceWeights::Parts::vertex_row(const SurfacePlace& place, JetPa
   return row;
 }
 
-/// Down to the patch that the place lies in, then each part's weights back up to the ring of the face.
 PlaceRows SurfaceWeights::Parts::make_rows(const SurfacePlace& place, std::span<const JetPart> parts,
                                            FaceRing& scratch) const {
   PlaceRows rows;
-  JetWeights jet;
-  const RingTypes& types = faces.ring_types();
-  double u = place.u;
-  double v = place.v;
-  double scale = 1.0;
-  std::vector<std::pair<Index, int>> path;
-  Index type = faces.type(place.face);
-  const bool regular = type == RingTypes::kPatch;
-  while (type != RingTypes::kPatch && path.size() < kHalvingsToVertex) {
-    const Halving step = halve(quads(), u, v);
-    scale *= step.factor;
-    path.emplace_back(type, step.child);
-    type = types.child(type, step.child).type;
-  }
-  if (type != RingTypes::kPatch) {
+  FaceJet jet;
+  const Index type = faces.type(place.face);
+  std::vector<JetRow> jet_rows;
+  for (const JetPart part : parts) jet_rows.push_back(row_of(part));
+  if (!face_jet(quads(), faces.ring_types(), type, place.u, place.v, jet_rows, jet)) {
     for (const JetPart part : parts) rows.push_back(vertex_row(place, part));
     return rows;
   }
-  jet_weights(quads(), u, v, jet);
-  if (regular) {
+  if (type == RingTypes::kPatch) {
     const RegularPatch patch = faces.patch(place.face);
-    for (const JetPart part : parts) rows.push_back(patch_row(patch, part_of(jet, part)));
+    for (Eigen::Index r = 0; r < jet.rows(); ++r) rows.push_back(patch_row(patch, jet.row(r)));
     return rows;
   }
   const std::span<const Index> ring = faces.ring(place.face, scratch);
-  for (const JetPart part : parts) {
-    const auto& patch = part_of(jet, part);
-    std::vector<double> weights(patch.begin(), patch.begin() + patches.patch_size());
-    for (double& weight : weights) weight *= chain_factor(part, scale);
-    if (part != JetPart::Point) keep_sum_zero(weights);
-    for (std::size_t i = path.size(); i-- > 0;) {
-      const RingTypes::Step& step = types.step(path[i].first);
-      weights = to_ring(step, step.children[path[i].second], weights);
-      if (part != JetPart::Point) keep_sum_zero(weights);
-    }
+  for (Eigen::Index r = 0; r < jet.rows(); ++r) {
     VertexWeights& row = rows.emplace_back();
-    for (std::size_t i = 0; i < weights.size(); ++i) row.emplace_back(ring[i], weights[i]);
+    for (std::size_t i = 0; i < ring.size(); ++i) row.emplace_back(ring[i], jet(r, static_cast<Eigen::Index>(i)));
   }
   return rows;
 }

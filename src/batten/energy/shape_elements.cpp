@@ -1,0 +1,106 @@
+#include "batten/energy/shape_elements.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace batten {
+
+namespace {
+
+using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+void gather(std::span<const Index> vertices, ConstValuesRef from, ShapeScratch& scratch) {
+  scratch.points.resize(static_cast<Eigen::Index>(vertices.size()), 3);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    scratch.points.row(static_cast<Eigen::Index>(i)) = from.row(vertices[i]);
+  }
+}
+
+/// Calls visit(weight, jets of the place, rows) for each place with a tangent plane: the weight is the area's. N: the
+/// points, or Eigen::Dynamic.
+template <int N, typename Visit>
+void visit_places(ShapeEnergyKind kind, const ShapeTable& table, ShapeScratch& scratch, const Visit& visit) {
+  using Jets = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, N, Eigen::RowMajor, kMostShapeJetRows>>;
+  using Points = Eigen::Map<const Eigen::Matrix<double, N, 3, Eigen::RowMajor>>;
+  const auto rows = static_cast<Eigen::Index>(shape_jet_rows(kind).size());
+  const Eigen::Index count = table.jets.cols();
+  const Points points(scratch.points.data(), count, 3);
+  for (std::size_t p = 0; p < table.weights.size(); ++p) {
+    const Jets jets(table.jets.data() + static_cast<Eigen::Index>(p) * rows * count, rows, count);
+    scratch.jet.noalias() = jets.lazyProduct(points);
+    const double area = shape_rows(kind, scratch.jet, scratch.rows);
+    if (area > 0.0) visit(table.weights[p] * area, jets, scratch.rows);
+  }
+}
+
+/// Adds the squares of a place's linear forms, four rows of `count` numbers: F^T F.
+template <int N>
+inline void add_squares(const double* f, Eigen::Index size, double* matrix) {
+  const Eigen::Index count = N > 0 ? N : size;
+  const double* const f1 = f + count;
+  const double* const f2 = f1 + count;
+  const double* const f3 = f2 + count;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    double* const row = matrix + i * count;
+    for (Eigen::Index j = 0; j < count; ++j) {
+      row[j] += (f[i] * f[j] + f1[i] * f1[j]) + (f2[i] * f2[j] + f3[i] * f3[j]);
+    }
+  }
+}
+
+template <int N>
+void fill_matrix(ShapeEnergyKind kind, const ShapeTable& table, ShapeScratch& scratch, double* matrix) {
+  using Forms = Eigen::Map<Eigen::Matrix<double, kMostShapeRows, N, Eigen::RowMajor>>;
+  const Eigen::Index count = table.jets.cols();
+  const int rows = shape_row_count(kind);
+  std::fill(matrix, matrix + count * count, 0.0);
+  scratch.forms.setZero(kMostShapeRows, count);
+  Forms forms(scratch.forms.data(), kMostShapeRows, count);
+  visit_places<N>(kind, table, scratch, [&](double weight, const auto& jets, ShapeRows& by_jet) {
+    by_jet *= std::sqrt(weight);
+    forms.topRows(rows).noalias() = by_jet.lazyProduct(jets);
+    add_squares<N>(forms.data(), count, matrix);
+  });
+}
+
+}  // namespace
+
+void shape_matrix(ShapeEnergyKind kind, const ShapeTable& table, std::span<const Index> vertices,
+                  ConstValuesRef reference, ShapeScratch& scratch, double* matrix) {
+  gather(vertices, reference, scratch);
+  if (table.jets.cols() == kQuadPatchSize) return fill_matrix<kQuadPatchSize>(kind, table, scratch, matrix);
+  if (table.jets.cols() == kTrianglePatchSize) return fill_matrix<kTrianglePatchSize>(kind, table, scratch, matrix);
+  fill_matrix<Eigen::Dynamic>(kind, table, scratch, matrix);
+}
+
+double shape_energy_of(ShapeEnergyKind kind, const ShapeTable& table, std::span<const Index> vertices,
+                       ConstValuesRef control, ShapeScratch& scratch) {
+  gather(vertices, control, scratch);
+  double sum = 0.0;
+  visit_places<Eigen::Dynamic>(kind, table, scratch, [&](double weight, const auto& /*jets*/, const ShapeRows& by_jet) {
+    sum += weight * (by_jet * scratch.jet).squaredNorm();
+  });
+  return sum;
+}
+
+void ElementOrder::sort(std::span<const Index> vertices) {
+  order_.resize(vertices.size());
+  std::iota(order_.begin(), order_.end(), 0);
+  std::sort(order_.begin(), order_.end(), [&](Index a, Index b) { return vertices[a] < vertices[b]; });
+}
+
+void ElementOrder::add_row(const double* numbers, std::span<const Index> vertices, Index row,
+                           Eigen::SparseMatrix<double, Eigen::RowMajor>& matrix) const {
+  const int begin = matrix.outerIndexPtr()[row];
+  const int* column = matrix.innerIndexPtr() + begin;
+  double* value = matrix.valuePtr() + begin;
+  for (const Index i : order_) {
+    while (*column != vertices[i]) {
+      ++column;
+      ++value;
+    }
+    *value += numbers[i];
+  }
+}
+
+}  // namespace batten

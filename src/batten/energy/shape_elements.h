@@ -1,0 +1,40 @@
+/// \file The matrix of a shape energy on one face, and how it is added to the whole.
+#pragma once
+#include <Eigen/SparseCore>
+#include <span>
+
+#include "batten/energy/shape_rows.h"
+#include "batten/energy/shape_tables.h"
+#include "batten/types.h"
+
+namespace batten {
+
+/// What an element needs room for; one for each thread.
+struct ShapeScratch {
+  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> points;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> forms;
+  ShapeJet jet;
+  ShapeRows rows;
+};
+
+/// matrix: n^2 numbers for n vertices, row by row; symmetric to the last bit.
+void shape_matrix(ShapeEnergyKind kind, const ShapeTable& table, std::span<const Index> vertices,
+                  ConstValuesRef reference, ShapeScratch& scratch, double* matrix);
+
+/// The energy of the element's surface in its own lengths.
+double shape_energy_of(ShapeEnergyKind kind, const ShapeTable& table, std::span<const Index> vertices,
+                       ConstValuesRef control, ShapeScratch& scratch);
+
+/// The vertices of an element in ascending order, to walk along a row's columns.
+class ElementOrder {
+ public:
+  void sort(std::span<const Index> vertices);
+  /// Adds `numbers`, one a vertex of the element, to a row that has all of them among its columns.
+  void add_row(const double* numbers, std::span<const Index> vertices, Index row,
+               Eigen::SparseMatrix<double, Eigen::RowMajor>& matrix) const;
+
+ private:
+  Buffer<Index> order_;
+};
+
+}  // namespace batten

@@ -1,0 +1,135 @@
+#include "batten/energy/shape_energy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "batten/energy/matrix_rows.h"
+#include "batten/energy/shape_elements.h"
+#include "batten/energy/shape_rows.h"
+#include "batten/energy/shape_tables.h"
+#include "batten/error.h"
+#include "batten/mesh/checked_values.h"
+#include "batten/parallel/parallel.h"
+
+namespace batten {
+
+namespace {
+
+/// Elements whose matrices are worked out before they are added up: 4 MB of regular ones.
+constexpr Index kElementsAtOnce = 2048;
+constexpr std::ptrdiff_t kElementBlock = 64;
+/// Tasks that add up rows, each its own.
+constexpr Index kOwners = 8;
+
+struct PatternScratch {
+  RowSum row;
+};
+
+}  // namespace
+
+struct ShapeEnergy::Parts {
+  SurfacePatches patches;
+  ShapeEnergyKind kind;
+  FaceElements elements;
+  std::vector<ShapeTable> tables;
+  Matrix pattern;  ///< K with zeros for entries
+
+  Parts(const SurfacePatches& patches_in, ShapeEnergyKind kind_in, const QuadratureOptions& options,
+        const Progress& progress)
+      : patches(patches_in), kind(kind_in), elements(patches), tables(shape_tables(patches, elements, kind, options)) {
+    std::vector<Buffer<Index>> points;
+    for (const ShapeTable& table : tables) points.push_back(table.points);
+    elements.list_vertices(patches, points);
+    const Index count = patches.base().vertex_count();
+    pattern = matrix_of_rows<PatternScratch>(
+        count, count, [&] { return std::make_unique<PatternScratch>(PatternScratch{RowSum(count)}); },
+        [&](Index vertex, PatternScratch& scratch) {
+          for (const FaceElements::Use& use : elements.uses(vertex)) {
+            scratch.row.add(elements.vertices(use.element), [](Index) { return 0.0; });
+          }
+        },
+        progress);
+  }
+
+  void require_base_points(ConstValuesRef points) const {
+    require_vertex_rows(patches.base(), points);
+    if (points.cols() != 3)
+      throw Error(ErrorCode::BadShape, "a reference surface needs control points of three columns");
+    require_finite(points, "control points");
+  }
+  void add_elements(Index begin, Index end, ConstValuesRef reference, Buffer<double>& numbers, Matrix& matrix) const;
+};
+
+/// The matrices first, in parallel; then every row sums its own entries, in the order of the elements.
+void ShapeEnergy::Parts::add_elements(Index begin, Index end, ConstValuesRef reference, Buffer<double>& numbers,
+                                      Matrix& matrix) const {
+  Buffer<std::size_t> starts(static_cast<std::size_t>(end - begin) + 1, 0);
+  for (Index e = begin; e < end; ++e) {
+    const std::size_t size = elements.vertices(e).size();
+    starts[e - begin + 1] = starts[e - begin] + size * size;
+  }
+  numbers.resize(std::max(numbers.size(), starts.back()));
+  parallel_for(
+      end - begin,
+      [&](std::ptrdiff_t first, std::ptrdiff_t last) {
+        ShapeScratch scratch;
+        for (auto i = static_cast<Index>(first); i < static_cast<Index>(last); ++i) {
+          shape_matrix(kind, tables[elements.kind(begin + i)], elements.vertices(begin + i), reference, scratch,
+                       numbers.data() + starts[i]);
+        }
+      },
+      kElementBlock);
+  parallel_for_each(kOwners, [&](std::ptrdiff_t owner) {
+    ElementOrder order;
+    for (Index e = begin; e < end; ++e) {
+      const std::span<const Index> vertices = elements.vertices(e);
+      order.sort(vertices);
+      for (std::size_t i = 0; i < vertices.size(); ++i) {
+        if (vertices[i] % kOwners != owner) continue;
+        order.add_row(numbers.data() + starts[e - begin] + i * vertices.size(), vertices, vertices[i], matrix);
+      }
+    }
+  });
+}
+
+ShapeEnergy::ShapeEnergy(const SurfacePatches& patches, ShapeEnergyKind kind, const QuadratureOptions& options,
+                         const Progress& progress)
+    : parts_(std::make_unique<const Parts>(patches, kind, options, progress)) {}
+
+ShapeEnergy::~ShapeEnergy() = default;
+ShapeEnergy::ShapeEnergy(ShapeEnergy&&) noexcept = default;
+
+const SurfacePatches& ShapeEnergy::patches() const { return parts_->patches; }
+ShapeEnergyKind ShapeEnergy::kind() const { return parts_->kind; }
+
+ShapeEnergy::Matrix ShapeEnergy::matrix(ConstValuesRef reference, const Progress& progress) const {
+  parts_->require_base_points(reference);
+  Matrix matrix = parts_->pattern;
+  Buffer<double> numbers;
+  const Index count = parts_->elements.count();
+  for (Index begin = 0; begin < count; begin += kElementsAtOnce) {
+    report_progress(progress, static_cast<double>(begin) / count);
+    parts_->add_elements(begin, std::min(count, begin + kElementsAtOnce), reference, numbers, matrix);
+  }
+  report_progress(progress, 1.0);
+  return matrix;
+}
+
+double ShapeEnergy::energy(ConstValuesRef control) const {
+  parts_->require_base_points(control);
+  return parallel_reduce(
+      parts_->elements.count(), 0.0,
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        ShapeScratch scratch;
+        double sum = 0.0;
+        for (auto e = static_cast<Index>(begin); e < static_cast<Index>(end); ++e) {
+          sum += shape_energy_of(parts_->kind, parts_->tables[parts_->elements.kind(e)], parts_->elements.vertices(e),
+                                 control, scratch);
+        }
+        return sum;
+      },
+      [](double a, double b) { return a + b; });
+}
+
+}  // namespace batten
