@@ -100,6 +100,62 @@ SolveReport conjugate_gradients(const LinearMap& a, const Eigen::VectorXd& scale
 
 namespace {
 
+/// Where the columns are one vector, each has the sum of all columns' products.
+Eigen::RowVectorXd products(Coefficients coefficients, const Values& a, const Values& b) {
+  const Eigen::RowVectorXd dots = column_dots(a, b);
+  if (coefficients == Coefficients::EachColumn) return dots;
+  return Eigen::RowVectorXd::Constant(dots.size(), dots.sum());
+}
+
+/// x += direction diag(factors).
+void add_scaled(const Eigen::RowVectorXd& factors, const Values& direction, Values& x) {
+  for_rows(x.rows(), [&](std::ptrdiff_t i) {
+    for (std::ptrdiff_t c = 0; c < x.cols(); ++c) x(i, c) += factors[c] * direction(i, c);
+  });
+}
+
+}  // namespace
+
+SolveReport conjugate_gradients(const LinearMap& a, const LinearMap& precondition, Coefficients coefficients,
+                                const Values& b, Values& x, const StopRule& stop) {
+  const Stopwatch watch;
+  SolveReport report = report_of(SolveMethod::ConjugateGradient);
+  Values product(b.rows(), b.cols());
+  Values z(b.rows(), b.cols());
+  a(x, product);
+  Values residual = b - product;
+  precondition(residual, z);
+  Values direction = z;
+  Eigen::RowVectorXd rz = products(coefficients, residual, z);
+  const double columns = coefficients == Coefficients::Joint ? static_cast<double>(b.cols()) : 1.0;
+  const auto measure = [&] { report.measured(std::sqrt(std::max(0.0, rz.sum() / columns))); };
+  measure();
+  while (!(report.residual_history.back() <= stop.tolerance) && report.iterations < stop.max_iterations) {
+    a(direction, product);
+    ++report.iterations;
+    const Eigen::RowVectorXd curvature = products(coefficients, direction, product);
+    report.indefinite = (rz.array() > 0.0 && !(curvature.array() > 0.0)).any();
+    if (report.indefinite) break;
+    const Eigen::RowVectorXd alpha = ratios(rz, curvature);
+    add_scaled(alpha, direction, x);
+    add_scaled(-alpha, product, residual);
+    precondition(residual, z);
+    const Eigen::RowVectorXd rz_next = products(coefficients, residual, z);
+    const Eigen::RowVectorXd beta = ratios(rz_next, rz);
+    rz = rz_next;
+    for_rows(b.rows(), [&](std::ptrdiff_t i) {
+      for (std::ptrdiff_t c = 0; c < b.cols(); ++c) direction(i, c) = z(i, c) + beta[c] * direction(i, c);
+    });
+    measure();
+    stop.report(report.residual_history.front(), report.residual_history.back());
+  }
+  report.converged = report.residual_history.back() <= stop.tolerance;
+  report.seconds = watch.seconds();
+  return report;
+}
+
+namespace {
+
 /// The vectors of stabilised bi-conjugate gradients, and one step of it.
 class BiCgStab {
  public:

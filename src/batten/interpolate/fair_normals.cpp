@@ -1,0 +1,79 @@
+#include "batten/interpolate/fair_normals.h"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <utility>
+
+#include "batten/limit/vertex_limit.h"
+#include "batten/parallel/parallel.h"
+#include "batten/refine/sparse_rows.h"
+
+namespace batten {
+
+namespace {
+
+/// Singular values below are zero: a tangent that does not depend on the unknowns.
+constexpr double kNoTangent = 1e-9;
+
+}  // namespace
+
+FairNormals::FairNormals(const Topology& refined, const Scheme& scheme, ConstValuesRef normals,
+                         const Eigen::SparseMatrix<double, Eigen::RowMajor>& to_control, const Values& constant) {
+  for (Index v = 0; v < static_cast<Index>(normals.rows()); ++v) {
+    if (normals.row(v).isZero(0.0) || refined.is_isolated(v)) continue;
+    const Eigen::RowVector3d normal = normals.row(v).normalized();
+    VertexWeights entries;  // of both tangents: the column's number twice, plus the tangent's
+    Eigen::Vector2d values(0.0, 0.0);
+    for (int t = 0; t < 2; ++t) {
+      const TileValue tangent = t == 0 ? TileValue::TangentU : TileValue::TangentV;
+      visit_vertex_limit(refined, scheme, tangent, refined.vertex_half_edge(v), [&](Index vertex, double weight) {
+        values[t] -= weight * normal.dot(constant.row(vertex));
+        for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator entry(to_control, vertex); entry; ++entry) {
+          entries.emplace_back(2 * static_cast<Index>(entry.col()) + t, weight * entry.value());
+        }
+      });
+    }
+    merge(entries);
+    Condition condition;
+    condition.normal = normal;
+    for (const auto& [place, weight] : entries) {
+      if (condition.columns.empty() || condition.columns.back() != place / 2) condition.columns.push_back(place / 2);
+    }
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, static_cast<Eigen::Index>(condition.columns.size()));
+    Eigen::Index column = 0;
+    for (const auto& [place, weight] : entries) {
+      while (condition.columns[column] != place / 2) ++column;
+      rows(place % 2, column) = weight;
+    }
+    // Rows become orthonormal: U S W^T heights = values is W^T heights = S^-1 U^T values.
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    const auto rank = (svd.singularValues().array() > kNoTangent * std::max(1e-300, svd.singularValues()[0])).count();
+    if (rank == 0) continue;
+    condition.rows = svd.matrixV().leftCols(rank).transpose();
+    condition.values = (svd.matrixU().transpose() * values).head(rank).cwiseQuotient(svd.singularValues().head(rank));
+    conditions_.push_back(std::move(condition));
+    vertices_.push_back(v);
+  }
+}
+
+void FairNormals::move(Values& unknowns, double values_factor) const {
+  parallel_for(count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (std::ptrdiff_t i = begin; i < end; ++i) {
+      const Condition& condition = conditions_[static_cast<std::size_t>(i)];
+      Eigen::VectorXd missing = values_factor * condition.values;
+      for (std::size_t j = 0; j < condition.columns.size(); ++j) {
+        missing -=
+            condition.rows.col(static_cast<Eigen::Index>(j)) * condition.normal.dot(unknowns.row(condition.columns[j]));
+      }
+      for (std::size_t j = 0; j < condition.columns.size(); ++j) {
+        unknowns.row(condition.columns[j]) +=
+            condition.rows.col(static_cast<Eigen::Index>(j)).dot(missing) * condition.normal;
+      }
+    }
+  });
+}
+
+void FairNormals::meet(Values& unknowns) const { move(unknowns, 1.0); }
+void FairNormals::project(Values& step) const { move(step, 0.0); }
+
+}  // namespace batten

@@ -1,0 +1,132 @@
+#include "batten/interpolate/fair_system.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "batten/parallel/parallel.h"
+#include "batten/refine/sparse_rows.h"
+#include "batten/solve/incomplete_factor.h"
+#include "batten/solve/krylov.h"
+
+namespace batten {
+
+namespace {
+
+using Matrix = FairSystem::Matrix;
+
+/// matrix * values, row by row in parallel.
+void multiply(const Matrix& matrix, const Values& values, Values& result) {
+  constexpr std::ptrdiff_t kRowBlock = 512;
+  result.resize(matrix.rows(), values.cols());
+  parallel_for(
+      matrix.rows(),
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        for (std::ptrdiff_t r = begin; r < end; ++r) {
+          Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+          for (int e = matrix.outerIndexPtr()[r]; e < matrix.outerIndexPtr()[r + 1]; ++e) {
+            sum += matrix.valuePtr()[e] * values.row(matrix.innerIndexPtr()[e]).head<3>();
+          }
+          result.row(r) = sum;
+        }
+      },
+      kRowBlock);
+}
+
+/// Unknowns without an energy, such as the points around holes, keep their values: their equation is 1 x = 0.
+void hold_unused(Matrix& matrix) {
+  for (Eigen::Index r = 0; r < matrix.rows(); ++r) {
+    double& diagonal = matrix.coeffRef(r, r);
+    if (!(diagonal > 0.0)) diagonal = 1.0;
+  }
+}
+
+}  // namespace
+
+FairSystem::FairSystem(const LimitMatrix& limit, Index original_count, Scalars position_weights)
+    : position_weights_(std::move(position_weights)) {
+  const bool passes = position_weights_.size() == 0;
+  const Index count = limit.topology().vertex_count();
+  unknown_of_.assign(static_cast<std::size_t>(count), -1);
+  Index unknowns = 0;
+  for (Index v = passes ? original_count : 0; v < count; ++v) unknown_of_[v] = unknowns++;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Index v = 0; v < count; ++v) {
+    if (v >= original_count) {
+      entries.emplace_back(v, unknown_of_[v], 1.0);
+      continue;
+    }
+    VertexWeights row;
+    double own = 0.0;
+    limit.visit_row(v, [&](Index column, double weight) {
+      if (column == v) {
+        own += weight;
+      } else {
+        row.emplace_back(column, weight);
+      }
+    });
+    for (const auto& [column, weight] : row) entries.emplace_back(v, unknown_of_[column], -weight / own);
+    if (passes) {
+      target_factors_.push_back(1.0 / own);
+    } else {
+      entries.emplace_back(v, unknown_of_[v], 1.0 / own);
+    }
+  }
+  to_control_.resize(count, unknowns);
+  to_control_.setFromTriplets(entries.begin(), entries.end());
+  transposed_ = to_control_.transpose();
+}
+
+Values FairSystem::unknowns(ConstValuesRef control, ConstValuesRef targets) const {
+  Values result(to_control_.cols(), control.cols());
+  for (Index v = 0; v < static_cast<Index>(control.rows()); ++v) {
+    if (unknown_of_[v] >= 0) result.row(unknown_of_[v]) = control.row(v);
+  }
+  if (target_factors_.empty()) result.topRows(targets.rows()) = targets;
+  return result;
+}
+
+Values FairSystem::control(const Values& unknowns, ConstValuesRef targets) const {
+  Values result;
+  multiply(to_control_, unknowns, result);
+  for (std::size_t v = 0; v < target_factors_.size(); ++v) {
+    result.row(static_cast<Eigen::Index>(v)) += target_factors_[v] * targets.row(static_cast<Eigen::Index>(v));
+  }
+  return result;
+}
+
+/// T^T K T y + W y = -T^T K C q + W q; solved for the step from the start, so that large coordinates cost no digits.
+SolveReport FairSystem::minimise(const Matrix& energy, ConstValuesRef targets, const FairNormals& normals,
+                                 const StopRule& stop, Values& unknowns) const {
+  normals.meet(unknowns);
+  Matrix reduced = transposed_ * Matrix(energy * to_control_);
+  Values gradient;
+  {
+    Values of_control;
+    multiply(energy, control(unknowns, targets), of_control);
+    multiply(transposed_, of_control, gradient);
+  }
+  for (Index i = 0; i < static_cast<Index>(position_weights_.size()); ++i) {
+    reduced.coeffRef(i, i) += position_weights_[i];
+    gradient.row(i) += position_weights_[i] * (unknowns.row(i) - targets.row(i));
+  }
+  hold_unused(reduced);
+  Values right = -gradient;
+  normals.project(right);
+  const IncompleteFactor factor(reduced);
+  const auto product = [&](const Values& x, Values& y) {
+    multiply(reduced, x, y);
+    normals.project(y);
+  };
+  const auto precondition = [&](const Values& x, Values& y) {
+    factor.solve(x, y);
+    normals.project(y);
+  };
+  Values step = Values::Zero(unknowns.rows(), unknowns.cols());
+  const SolveReport report = conjugate_gradients(
+      product, precondition, normals.empty() ? Coefficients::EachColumn : Coefficients::Joint, right, step, stop);
+  unknowns += step;
+  normals.meet(unknowns);
+  return report;
+}
+
+}  // namespace batten
