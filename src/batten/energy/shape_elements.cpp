@@ -17,19 +17,37 @@ void gather(std::span<const Index> vertices, ConstValuesRef from, ShapeScratch& 
 }
 
 /// Calls visit(weight, jets of the place, rows) for each place with a tangent plane: the weight is the area's. N: the
-/// points, or Eigen::Dynamic.
-template <int N, typename Visit>
+/// points, or Eigen::Dynamic. J: the rows of a jet.
+template <int N, int J, typename Visit>
 void visit_places(ShapeEnergyKind kind, const ShapeTable& table, ShapeScratch& scratch, const Visit& visit) {
-  using Jets = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, N, Eigen::RowMajor, kMostShapeJetRows>>;
-  using Points = Eigen::Map<const Eigen::Matrix<double, N, 3, Eigen::RowMajor>>;
-  const auto rows = static_cast<Eigen::Index>(shape_jet_rows(kind).size());
+  using Jets = Eigen::Map<const Eigen::Matrix<double, J, N, Eigen::RowMajor>>;
   const Eigen::Index count = table.jets.cols();
-  const Points points(scratch.points.data(), count, 3);
+  const Eigen::Map<const Eigen::Matrix<double, N, 3, Eigen::RowMajor>> points(scratch.points.data(), count, 3);
+  scratch.jet.resize(J, 3);
   for (std::size_t p = 0; p < table.weights.size(); ++p) {
-    const Jets jets(table.jets.data() + static_cast<Eigen::Index>(p) * rows * count, rows, count);
-    scratch.jet.noalias() = jets.lazyProduct(points);
+    const Jets jets(table.jets.data() + static_cast<Eigen::Index>(p) * J * count, J, count);
+    scratch.jet.template topRows<J>().noalias() = jets.lazyProduct(points);
     const double area = shape_rows(kind, scratch.jet, scratch.rows);
-    if (area > 0.0) visit(table.weights[p] * area, jets, scratch.rows);
+    if (area > 0.0) visit(table.weights[p] * area, jets, scratch.rows.template leftCols<J>());
+  }
+}
+
+/// Calls body.operator()<N, J>() for the sizes of a table's elements.
+template <int J, typename Body>
+void with_points(const ShapeTable& table, const Body& body) {
+  if (table.jets.cols() == kQuadPatchSize) return body.template operator()<kQuadPatchSize, J>();
+  if (table.jets.cols() == kTrianglePatchSize) return body.template operator()<kTrianglePatchSize, J>();
+  body.template operator()<Eigen::Dynamic, J>();
+}
+template <typename Body>
+void with_sizes(ShapeEnergyKind kind, const ShapeTable& table, const Body& body) {
+  switch (kind) {
+    case ShapeEnergyKind::Stretch:
+      return with_points<2>(table, body);
+    case ShapeEnergyKind::Bending:
+      return with_points<5>(table, body);
+    case ShapeEnergyKind::Variation:
+      return with_points<9>(table, body);
   }
 }
 
@@ -48,37 +66,34 @@ inline void add_squares(const double* f, Eigen::Index size, double* matrix) {
   }
 }
 
-template <int N>
-void fill_matrix(ShapeEnergyKind kind, const ShapeTable& table, ShapeScratch& scratch, double* matrix) {
-  using Forms = Eigen::Map<Eigen::Matrix<double, kMostShapeRows, N, Eigen::RowMajor>>;
-  const Eigen::Index count = table.jets.cols();
-  const int rows = shape_row_count(kind);
-  std::fill(matrix, matrix + count * count, 0.0);
-  scratch.forms.setZero(kMostShapeRows, count);
-  Forms forms(scratch.forms.data(), kMostShapeRows, count);
-  visit_places<N>(kind, table, scratch, [&](double weight, const auto& jets, ShapeRows& by_jet) {
-    by_jet *= std::sqrt(weight);
-    forms.topRows(rows).noalias() = by_jet.lazyProduct(jets);
-    add_squares<N>(forms.data(), count, matrix);
-  });
-}
-
 }  // namespace
 
 void shape_matrix(ShapeEnergyKind kind, const ShapeTable& table, std::span<const Index> vertices,
                   ConstValuesRef reference, ShapeScratch& scratch, double* matrix) {
   gather(vertices, reference, scratch);
-  if (table.jets.cols() == kQuadPatchSize) return fill_matrix<kQuadPatchSize>(kind, table, scratch, matrix);
-  if (table.jets.cols() == kTrianglePatchSize) return fill_matrix<kTrianglePatchSize>(kind, table, scratch, matrix);
-  fill_matrix<Eigen::Dynamic>(kind, table, scratch, matrix);
+  const Eigen::Index count = table.jets.cols();
+  const int rows = shape_row_count(kind);
+  std::fill(matrix, matrix + count * count, 0.0);
+  scratch.forms.setZero(kMostShapeRows, count);
+  with_sizes(kind, table, [&]<int N, int J>() {
+    using Forms = Eigen::Map<Eigen::Matrix<double, kMostShapeRows, N, Eigen::RowMajor>>;
+    Forms forms(scratch.forms.data(), kMostShapeRows, count);
+    visit_places<N, J>(kind, table, scratch, [&](double weight, const auto& jets, auto by_jet) {
+      by_jet *= std::sqrt(weight);
+      forms.topRows(rows).noalias() = by_jet.lazyProduct(jets);
+      add_squares<N>(forms.data(), count, matrix);
+    });
+  });
 }
 
 double shape_energy_of(ShapeEnergyKind kind, const ShapeTable& table, std::span<const Index> vertices,
                        ConstValuesRef control, ShapeScratch& scratch) {
   gather(vertices, control, scratch);
   double sum = 0.0;
-  visit_places<Eigen::Dynamic>(kind, table, scratch, [&](double weight, const auto& /*jets*/, const ShapeRows& by_jet) {
-    sum += weight * (by_jet * scratch.jet).squaredNorm();
+  with_sizes(kind, table, [&]<int N, int J>() {
+    visit_places<N, J>(kind, table, scratch, [&](double weight, const auto& /*jets*/, const auto& by_jet) {
+      sum += weight * by_jet.lazyProduct(scratch.jet.template topRows<J>()).squaredNorm();
+    });
   });
   return sum;
 }

@@ -23,8 +23,8 @@
 
 namespace batten {
 
-/// Three points a side, and two halvings.
-inline constexpr QuadratureOptions kShapeQuadrature{3, 2};
+/// Three points a side, and one halving: spheres come out no rounder with more (docs/decisions/010-fair-solver.md).
+inline constexpr QuadratureOptions kShapeQuadrature{3, 1};
 
 /// Built for a connectivity. Const and safe from several threads; no result depends on their number. Control points are
 /// those of patches.base(), N of them, here: with N-by-3 for a reference.

@@ -154,7 +154,7 @@ Values FairSolve::run(const Values& targets, const Values& reference, FairReport
     const Progress of_round = progress_within(progress, begin, end);
     const ShapeEnergy::Matrix matrix = energy_.matrix(lengths, progress_within(of_round, 0.0, 0.3));
     StopRule stop;
-    stop.tolerance = options_.tolerance * std::sqrt(energy_.energy(lengths));
+    stop.tolerance = options_.tolerance;
     stop.max_iterations = options_.max_iterations;
     stop.progress = progress_within(of_round, 0.4, 1.0);
     report.solve.append(system_.minimise(matrix, targets, normals_, stop, unknowns), ", ");

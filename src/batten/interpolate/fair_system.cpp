@@ -1,6 +1,7 @@
 #include "batten/interpolate/fair_system.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "batten/parallel/parallel.h"
@@ -100,9 +101,12 @@ SolveReport FairSystem::minimise(const Matrix& energy, ConstValuesRef targets, c
   normals.meet(unknowns);
   Matrix reduced = transposed_ * Matrix(energy * to_control_);
   Values gradient;
+  double level = 0.0;
   {
     Values of_control;
-    multiply(energy, control(unknowns, targets), of_control);
+    const Values start = control(unknowns, targets);
+    multiply(energy, start, of_control);
+    level = start.cwiseProduct(of_control).sum();
     multiply(transposed_, of_control, gradient);
   }
   for (Index i = 0; i < static_cast<Index>(position_weights_.size()); ++i) {
@@ -121,9 +125,11 @@ SolveReport FairSystem::minimise(const Matrix& energy, ConstValuesRef targets, c
     factor.solve(x, y);
     normals.project(y);
   };
+  StopRule within = stop;
+  within.tolerance *= std::sqrt(std::max(0.0, level));
   Values step = Values::Zero(unknowns.rows(), unknowns.cols());
   const SolveReport report = conjugate_gradients(
-      product, precondition, normals.empty() ? Coefficients::EachColumn : Coefficients::Joint, right, step, stop);
+      product, precondition, normals.empty() ? Coefficients::EachColumn : Coefficients::Joint, right, step, within);
   unknowns += step;
   normals.meet(unknowns);
   return report;
