@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "batten/adaptive/adaptive.h"
+#include "batten/energy/shape_energy_kind.h"
 #include "batten/expand/denoise.h"
 #include "batten/expand/morph.h"
 #include "batten/expand/sharpen.h"
@@ -83,20 +84,29 @@ struct NormalArguments {
   bool relax = true;       ///< soften the ripples
 };
 
-struct InterpolateArguments {
-  CommonArguments common;
-  PictureArguments picture;
-  NormalArguments normals;
-  InterpolateOptions options;
-  std::string plot;  ///< residual against iteration
-  bool compare_methods = false;
-  int levels = -1;  ///< -1: write the control mesh, or for GLB at most 3
-};
-
 /// A length in the mesh's unit, or as a share of the bounding box's diagonal.
 struct Length {
   double value = 0.0;
   bool relative = false;
+};
+
+/// The fairest surface through the points instead of the one of the mesh's own connectivity.
+struct FairArguments {
+  bool fair = false;
+  std::optional<int> levels;
+  ShapeEnergyKind energy = ShapeEnergyKind::Variation;
+  std::optional<Length> smoothing;
+};
+
+struct InterpolateArguments {
+  CommonArguments common;
+  PictureArguments picture;
+  NormalArguments normals;
+  FairArguments fair;
+  InterpolateOptions options;
+  std::string plot;  ///< residual against iteration
+  bool compare_methods = false;
+  int levels = -1;  ///< -1: write the control mesh, or for GLB at most 3
 };
 
 struct SubdivideArguments {
@@ -220,6 +230,8 @@ struct RepairArguments {
 
 int run_info(const InfoArguments& arguments);
 int run_interpolate(const InterpolateArguments& arguments);
+/// interpolate --fair.
+int run_fair(const InterpolateArguments& arguments);
 int run_subdivide(const SubdivideArguments& arguments);
 /// subdivide where a bound is given.
 int run_adaptive(const SubdivideArguments& arguments);

@@ -15,6 +15,9 @@ const Names<SolveMethod> kMethods{{"auto", SolveMethod::Auto},
 const Names<OnSingular> kOnSingular{
     {"refuse", OnSingular::Refuse}, {"least-squares", OnSingular::LeastSquares}, {"alpha", OnSingular::Alpha}};
 const Names<LimitMasks> kMasks{{"exact", LimitMasks::Exact}, {"opensubdiv", LimitMasks::OpenSubdiv}};
+const Names<ShapeEnergyKind> kShapeEnergies{{"stretch", ShapeEnergyKind::Stretch},
+                                            {"bending", ShapeEnergyKind::Bending},
+                                            {"variation", ShapeEnergyKind::Variation}};
 const Names<FaceKind> kFaces{{"quads", FaceKind::Quads}, {"triangles", FaceKind::Triangles}};
 
 void add_adaptive(CLI::App& verb, SubdivideArguments& arguments) {
@@ -29,6 +32,16 @@ void add_adaptive(CLI::App& verb, SubdivideArguments& arguments) {
   verb.add_option("--max-faces", arguments.max_faces, "with a bound: stop with an error beyond so many; 20 million")
       ->check(whole_number(1))
       ->option_text("N");
+}
+
+void add_fair(CLI::App& verb, FairArguments& fair) {
+  verb.add_flag("--fair", fair.fair,
+                "the surface through the points that swings least, on the mesh refined; its control mesh is written");
+  verb.add_option("--fair-levels", fair.levels, "refine so often, 1 or 2; once if not given")
+      ->check(whole_number(1, 2));
+  add_choice(verb, "--energy", fair.energy, kShapeEnergies,
+             "what a fair surface has little of: area, curvature, or change of curvature (variation, if not given)");
+  add_length(verb, "--smoothing", fair.smoothing, "let the surface leave the points: bumps shorter than this vanish");
 }
 
 }  // namespace
@@ -67,10 +80,18 @@ void add_interpolate(CLI::App& app, InterpolateArguments& arguments, int& status
                   "write the limit surface refined so often, instead of the control mesh (.glb: always; 3 times "
                   "if not given, fewer for a large mesh)")
       ->check(whole_number(0, 12));
+  add_fair(verb, arguments.fair);
   set_run(verb, arguments.common, status, [&] {
     require_output(verb, {"--compare-methods"});
     require_with(verb, {"--levels"}, {"--output"});
     require_with(verb, {"--normal-tolerance", "--keep-ripples"}, {"--normals"});
+    require_with(verb, {"--fair-levels", "--energy", "--smoothing"}, {"--fair"});
+    if (arguments.fair.fair) {
+      require_alone(verb, "--fair",
+                    {"--method", "--tolerance", "--omega", "--max-iterations", "--on-singular", "--limit-masks",
+                     "--compare-methods", "--plot", "--normals", "--normal-tolerance", "--keep-ripples"});
+      return run_fair(arguments);
+    }
     if (arguments.options.method != SolveMethod::Jacobi) require_with(verb, {"--omega"}, {"--compare-methods"});
     return run_interpolate(arguments);
   });

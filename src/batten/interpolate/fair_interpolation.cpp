@@ -217,6 +217,7 @@ FairInterpolant interpolate_fairly(const Topology& topology, const Scheme& schem
   }
   FairSolve solve(fine, topology.vertex_count(), options, std::move(weights), progress_within(progress, 0.1, 0.2));
   FairReport report;
+  report.levels = levels;
   Values control = solve.run(wanted, start.values, report, progress_within(progress, 0.2, 0.95));
   report.plain_energy = plain ? solve.energy(*plain) : std::numeric_limits<double>::quiet_NaN();
   report.diagonal = frame.diagonal;

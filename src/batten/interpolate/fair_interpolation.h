@@ -40,6 +40,7 @@ struct FairOptions {
 
 /// What was achieved. Energies are those of ShapeEnergy::energy() on the refined mesh, each surface in its own lengths.
 struct FairReport {
+  int levels = 1;             ///< refinements of the control mesh
   double plain_energy = 0.0;  ///< of the surface that Interpolator gives; NaN where it gives none
   double energy = 0.0;
   double diagonal = 0.0;   ///< of the targets' bounding box

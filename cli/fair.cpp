@@ -1,0 +1,125 @@
+/// interpolate --fair.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "batten/error.h"
+#include "batten/interpolate/fair_mesh.h"
+#include "cli/attributes.h"
+#include "cli/job.h"
+#include "cli/picture.h"
+#include "cli/surface_output.h"
+
+namespace batten::cli {
+namespace {
+
+const char* energy_word(ShapeEnergyKind kind) {
+  constexpr const char* kWords[] = {"stretch", "bending", "variation"};
+  return kWords[static_cast<int>(kind)];
+}
+
+FairOptions options_of(const FairArguments& arguments, double diagonal) {
+  FairOptions options;
+  options.levels = arguments.levels;
+  options.energy = arguments.energy;
+  if (const std::optional<Length>& length = arguments.smoothing) {
+    options.smoothing = length->relative ? length->value * diagonal : length->value;
+  }
+  return options;
+}
+
+/// "46.2, of the plain surface 427 (-89 %)"
+std::string energy_text(const FairReport& report) {
+  if (!(report.plain_energy > 0.0)) return fmt::format("{:.4g}", report.energy);
+  return fmt::format("{:.4g}, of the plain surface {:.4g} ({:+.0f} %)", report.energy, report.plain_energy,
+                     100.0 * (report.energy / report.plain_energy - 1.0));
+}
+
+void print_table(const Topology& topology, const Scheme& scheme, const FairOptions& options, const FairMesh& result,
+                 const std::string& written, const Job& job) {
+  const FairReport& report = result.report;
+  Table table;
+  table.add("mesh", mesh_text(topology));
+  table.add("scheme", scheme_text(scheme));
+  table.add("method", "fair, " + method_text(report.solve));
+  table.add(energy_word(options.energy), energy_text(report));
+  if (report.kept_plain) table.add("", "the plain surface has the least, and is kept");
+  table.add("max error", fmt::format("{:.3g} at vertex {} ({:.3g} of the diagonal)", report.max_error,
+                                     report.worst_vertex, report.max_error / report.diagonal));
+  table.add("rms error", fmt::format("{:.3g}", report.rms_error));
+  table.add("refined", size_text(result.mesh));
+  if (!written.empty()) table.add("written", written);
+  job.print(table);
+}
+
+nlohmann::ordered_json report_json(const Topology& topology, const Scheme& scheme, const FairOptions& options,
+                                   const FairMesh& result) {
+  const FairReport& report = result.report;
+  const auto number_or_null = [](double value) {
+    return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
+  };
+  return {{"vertices", topology.vertex_count()},
+          {"faces", topology.face_count()},
+          {"edges", topology.edge_count()},
+          {"diagonal", report.diagonal},
+          {"scheme", scheme_json(scheme)},
+          {"method", report.solve.method_name},
+          {"converged", report.solve.converged},
+          {"iterations", report.solve.iterations},
+          {"max_error", report.max_error},
+          {"rms_error", report.rms_error},
+          {"worst_vertex", report.worst_vertex},
+          {"fair",
+           {{"levels", report.levels},
+            {"energy", energy_word(options.energy)},
+            {"smoothing", options.smoothing},
+            {"plain_energy", number_or_null(report.plain_energy)},
+            {"fair_energy", number_or_null(report.energy)},
+            {"kept_plain", report.kept_plain}}},
+          {"written_vertices", result.mesh.vertex_count()},
+          {"written_faces", result.mesh.face_count()},
+          {"peak_memory_bytes", peak_memory_bytes()}};
+}
+
+Subject subject_of(const Mesh& given, const FairMesh& result, const PictureArguments& picture) {
+  Subject subject;
+  subject.control = &result.mesh;
+  subject.topology = result.topology;
+  subject.scheme = result.scheme;
+  subject.targets = &given.points;
+  if (picture.coloring == Coloring::None) subject.markers = given.points;
+  subject.before = &given;
+  subject.before_caption = "the mesh given";
+  subject.after_caption = "the fair surface through its points";
+  return subject;
+}
+
+}  // namespace
+
+int run_fair(const InterpolateArguments& arguments) {
+  const CommonArguments& common = arguments.common;
+  Job job("interpolate", common);
+  require_values(common, job.mesh);
+  const Topology topology = job.connect();
+  const Scheme scheme = scheme_for(common, job.mesh);
+  const Mesh given = arguments.picture.path.empty() ? Mesh() : job.mesh;
+  const FairOptions options = options_of(arguments.fair, bounding_diagonal(job.mesh.points));
+  const AttributeRule rule = common.attributes.value_or(AttributeRule::Interpolated);
+  const FairMesh result = interpolate_fairly(topology, scheme, std::move(job.mesh), rule, options,
+                                             ProgressBar("interpolating", common.quiet).callback());
+  job.stages.finish("solve");
+  const std::string written = write_surface({result.mesh, result.topology, result.scheme}, arguments.levels, job);
+  if (!arguments.picture.path.empty()) {
+    draw(subject_of(given, result, arguments.picture), arguments.picture, job);
+    job.stages.finish("picture");
+  }
+  print_table(topology, scheme, options, result, written, job);
+  job.report(report_json(topology, scheme, options, result));
+  if (result.report.solve.converged) return 0;
+  throw Error(ErrorCode::NotConverged,
+              fmt::format("the surface passes through its points, but is not the fairest yet after {} iterations",
+                          result.report.solve.iterations));
+}
+
+}  // namespace batten::cli
