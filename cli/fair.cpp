@@ -3,9 +3,12 @@
 
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "batten/error.h"
+#include "batten/expand/surface_fields.h"
 #include "batten/interpolate/fair_mesh.h"
+#include "batten/tessellate/surface_mesh.h"
 #include "cli/attributes.h"
 #include "cli/job.h"
 #include "cli/picture.h"
@@ -82,17 +85,53 @@ nlohmann::ordered_json report_json(const Topology& topology, const Scheme& schem
           {"peak_memory_bytes", peak_memory_bytes()}};
 }
 
-Subject subject_of(const Mesh& given, const FairMesh& result, const PictureArguments& picture) {
+/// A surface with numbers that colours show.
+struct ColoredSurface {
+  Mesh mesh;
+  Scalars numbers;
+};
+
+ColoredSurface curved(const FairMesh& result, const Mesh& control) {
+  const int levels = picture_levels(result.topology);
+  const FieldSurface surface{result.topology, result.scheme, control.points};
+  return {surface_mesh(result.topology, result.scheme, control, levels),
+          surface_field(surface, SurfaceField::MeanCurvature, levels)};
+}
+
+/// The plain surface beside the fair one, in one scale where colours show the mean curvature.
+void draw_both(const FairMesh& result, const Points& targets, PictureArguments picture, Job& job) {
+  Mesh plain = result.mesh;
+  plain.points = result.plain;
+  const bool by_curvature = picture.coloring == Coloring::Mean;
+  std::vector<ColoredSurface> colored;
+  std::vector<Subject> subjects(2);
+  for (const Mesh* control : {static_cast<const Mesh*>(&plain), &result.mesh}) {
+    colored.push_back(by_curvature ? curved(result, *control) : ColoredSurface{*control, {}});
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    Subject& subject = subjects[i];
+    subject.control = &colored[i].mesh;
+    subject.flat = by_curvature;
+    subject.scheme = result.scheme;
+    subject.targets = &targets;
+    subject.numbers = colored[i].numbers;
+    subject.numbers_scale = mean_curvature_scale();
+    subject.after_caption = i == 0 ? "plain" : "fair";
+    if (picture.coloring == Coloring::None) subject.markers = targets;
+  }
+  if (by_curvature) picture.coloring = Coloring::None;
+  draw_row(subjects, picture, job);
+}
+
+void draw_fair(const FairMesh& result, const Points& targets, const PictureArguments& picture, Job& job) {
+  if (picture.before_after) return draw_both(result, targets, picture, job);
   Subject subject;
   subject.control = &result.mesh;
   subject.topology = result.topology;
   subject.scheme = result.scheme;
-  subject.targets = &given.points;
-  if (picture.coloring == Coloring::None) subject.markers = given.points;
-  subject.before = &given;
-  subject.before_caption = "the mesh given";
-  subject.after_caption = "the fair surface through its points";
-  return subject;
+  subject.targets = &targets;
+  if (picture.coloring == Coloring::None) subject.markers = targets;
+  draw(subject, picture, job);
 }
 
 }  // namespace
@@ -103,15 +142,15 @@ int run_fair(const InterpolateArguments& arguments) {
   require_values(common, job.mesh);
   const Topology topology = job.connect();
   const Scheme scheme = scheme_for(common, job.mesh);
-  const Mesh given = arguments.picture.path.empty() ? Mesh() : job.mesh;
-  const FairOptions options = options_of(arguments.fair, bounding_diagonal(job.mesh.points));
+  const Points targets = job.mesh.points;
+  const FairOptions options = options_of(arguments.fair, bounding_diagonal(targets));
   const AttributeRule rule = common.attributes.value_or(AttributeRule::Interpolated);
   const FairMesh result = interpolate_fairly(topology, scheme, std::move(job.mesh), rule, options,
                                              ProgressBar("interpolating", common.quiet).callback());
   job.stages.finish("solve");
   const std::string written = write_surface({result.mesh, result.topology, result.scheme}, arguments.levels, job);
   if (!arguments.picture.path.empty()) {
-    draw(subject_of(given, result, arguments.picture), arguments.picture, job);
+    draw_fair(result, targets, arguments.picture, job);
     job.stages.finish("picture");
   }
   print_table(topology, scheme, options, result, written, job);

@@ -59,6 +59,13 @@ Mesh pyramid() {
   return mesh;
 }
 
+Mesh lifted_grid() {
+  constexpr Index kSide = 8;
+  Mesh mesh = grid(kSide, kSide);
+  mesh.points(kSide / 2 * (kSide + 1) + kSide / 2, 2) = 0.5;
+  return mesh;
+}
+
 /// Every second section is wide, and the sections stand unevenly, so that values carried in different ways differ.
 Mesh ring() {
   constexpr Index kAround = 8;
@@ -100,6 +107,7 @@ std::vector<Model> all_models() {
   std::vector<Model> models = {{"pipe-joint", pipe_joint()},
                                {"coarse-joint", coarse_joint()},
                                {"pyramid", pyramid()},
+                               {"lifted-grid", lifted_grid()},
                                {"tripod", tripod()},
                                {"torus-knot", torus_knot()},
                                {"bracket", bracket()},

@@ -21,6 +21,7 @@ Mesh bracket();       ///< an angle bracket with a rib and four bolt holes; crea
 Mesh creature();      ///< a body, four legs, a head with a snout and ears, a tail; closed
 Mesh ring();          ///< a lumpy ring with colours at the vertices and a texture whose seams go around both ways
 Mesh pyramid();       ///< five vertices, six triangles: a square pyramid, taller than wide
+Mesh lifted_grid();   ///< 8 by 8 quads in a plane, the vertex in the middle lifted
 
 /// A cube with one corner pushed in: no Catmull-Clark surface passes through its points.
 Mesh dented_cube();

@@ -115,10 +115,11 @@ class FairSolve {
             const Progress& progress)
       : fine_(fine),
         options_(options),
+        position_weights_(std::move(position_weights)),
         energy_(SurfacePatches(fine.topology, fine.scheme), options.energy, kShapeQuadrature,
                 progress_within(progress, 0.0, 0.8)),
         limit_(fine.topology, fine.scheme),
-        system_(limit_, original_count, std::move(position_weights)) {
+        system_(limit_, original_count, position_weights_) {
     report_progress(progress, 1.0);
   }
 
@@ -126,46 +127,79 @@ class FairSolve {
   double energy(const Values& control) const { return energy_.energy(control); }
   const FairNormals& normals() const { return normals_; }
 
-  /// The control points after all rounds; those of the round with the least energy where nothing else but that counts.
-  Values run(const Values& targets, const Values& reference, FairReport& report, const Progress& progress);
+  /// The control points after all rounds. lengths: the first reference. plain: where the search starts, if it may.
+  Values run(const Values& targets, const Values& lengths, const std::optional<Values>& plain, FairReport& report,
+             const Progress& progress);
 
  private:
+  double objective(const Values& control, const Values& targets) const;
+  bool improve(const Values& least, const Values& targets, Values& control, double& level) const;
+
   FineMesh fine_;
   const FairOptions& options_;
+  Scalars position_weights_;
   ShapeEnergy energy_;
   LimitMatrix limit_;
   FairSystem system_;
   FairNormals normals_;
 };
 
-Values FairSolve::run(const Values& targets, const Values& reference, FairReport& report, const Progress& progress) {
-  Values unknowns = system_.unknowns(reference, targets);
+/// What is to be least, by the surface's own lengths.
+double FairSolve::objective(const Values& control, const Values& targets) const {
+  double sum = energy_.energy(control);
+  if (position_weights_.size() == 0) return sum;
+  const Buffer<double> errors = row_errors(limit_, control, targets);
+  for (std::size_t v = 0; v < errors.size(); ++v) sum += position_weights_[v] * errors[v] * errors[v];
+  return sum;
+}
+
+/// The least of the quadratic energy need not have less energy in its own lengths. On the way to it from control points
+/// that meet the same conditions there may be some that have: all of the way, or a half, a quarter, an eighth.
+bool FairSolve::improve(const Values& least, const Values& targets, Values& control, double& level) const {
+  for (double step = 1.0; step > 0.1; step *= 0.5) {
+    Values trial = control + step * (least - control);
+    const double reached = objective(trial, targets);
+    if (!(reached < level)) continue;
+    control = std::move(trial);
+    level = reached;
+    return true;
+  }
+  return false;
+}
+
+Values FairSolve::run(const Values& targets, const Values& lengths, const std::optional<Values>& plain,
+                      FairReport& report, const Progress& progress) {
   if (options_.normals.size() > 0) {
-    const Values nothing = Values::Zero(unknowns.rows(), 3);
+    const Values nothing = Values::Zero(system_.to_control().cols(), 3);
     normals_ = FairNormals(fine_.topology, fine_.scheme, options_.normals, system_.to_control(),
                            system_.control(nothing, targets));
   }
-  Values lengths = reference;
-  Values best;
-  report.energy = std::numeric_limits<double>::infinity();
+  std::optional<Values> control;
+  if (plain && position_weights_.size() == 0 && normals_.empty()) control = plain;
+  double level = control ? objective(*control, targets) : 0.0;
+  report.kept_plain = control.has_value();
+  StopRule stop;
+  stop.tolerance = options_.tolerance;
+  stop.max_iterations = options_.max_iterations;
   for (int round = 0; round < options_.rounds; ++round) {
-    const double begin = static_cast<double>(round) / options_.rounds;
-    const double end = (round + 1.0) / options_.rounds;
-    const Progress of_round = progress_within(progress, begin, end);
-    const ShapeEnergy::Matrix matrix = energy_.matrix(lengths, progress_within(of_round, 0.0, 0.3));
-    StopRule stop;
-    stop.tolerance = options_.tolerance;
-    stop.max_iterations = options_.max_iterations;
-    stop.progress = progress_within(of_round, 0.4, 1.0);
+    const Progress of_round =
+        progress_within(progress, static_cast<double>(round) / options_.rounds, (round + 1.0) / options_.rounds);
+    const Values& reference = round == 0 || !control ? lengths : *control;
+    const ShapeEnergy::Matrix matrix = energy_.matrix(reference, progress_within(of_round, 0.0, 0.3));
+    stop.progress = progress_within(of_round, 0.4, 0.95);
+    Values unknowns = system_.unknowns(control ? *control : lengths);
     report.solve.append(system_.minimise(matrix, targets, normals_, stop, unknowns), ", ");
-    lengths = system_.control(unknowns, targets);
-    const double energy = energy_.energy(lengths);
-    if (energy < report.energy || options_.smoothing > 0.0 || !normals_.empty()) {
-      report.energy = energy;
-      best = lengths;
+    Values least = system_.control(unknowns, targets);
+    if (!control) {
+      level = objective(least, targets);
+      control = std::move(least);
+    } else if (improve(least, targets, *control, level)) {
+      report.kept_plain = false;
+    } else if (round > 0) {
+      break;
     }
   }
-  return best;
+  return system_.control(system_.unknowns(*control), targets);
 }
 
 /// Angles between the normals wanted and those of the surface.
@@ -218,14 +252,10 @@ FairInterpolant interpolate_fairly(const Topology& topology, const Scheme& schem
   FairSolve solve(fine, topology.vertex_count(), options, std::move(weights), progress_within(progress, 0.1, 0.2));
   FairReport report;
   report.levels = levels;
-  Values control = solve.run(wanted, start.values, report, progress_within(progress, 0.2, 0.95));
+  Values control = solve.run(wanted, start.values, plain, report, progress_within(progress, 0.2, 0.95));
   report.plain_energy = plain ? solve.energy(*plain) : std::numeric_limits<double>::quiet_NaN();
+  report.energy = solve.energy(control);
   report.diagonal = frame.diagonal;
-  if (options.smoothing == 0.0 && solve.normals().empty() && report.plain_energy <= report.energy) {
-    control = *plain;
-    report.energy = report.plain_energy;
-    report.kept_plain = true;
-  }
   const double unit = std::pow(frame.scale, 2 * order_of(options.energy) - 4);
   report.plain_energy *= unit;
   report.energy *= unit;

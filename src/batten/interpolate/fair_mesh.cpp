@@ -19,11 +19,12 @@ FairMesh interpolate_fairly(const Topology& topology, const Scheme& scheme, Mesh
   const int left = fair.report.levels - (plain.is_refined ? 1 : 0);
   RefinedMesh refined =
       refine_mesh(plain.topology, plain.scheme, plain.mesh, left, progress_within(progress, 0.95, 1.0));
+  Values plain_points = refined.mesh.points;
   refined.mesh.points = fair.control;
   state_scheme(fair.scheme, refined.mesh);
   plain.reports.erase(plain.reports.begin());
-  return {std::move(refined.mesh), std::move(fair.topology), fair.scheme, std::move(fair.report),
-          std::move(plain.reports)};
+  return {std::move(refined.mesh), std::move(plain_points), std::move(fair.topology), fair.scheme,
+          std::move(fair.report),  std::move(plain.reports)};
 }
 
 }  // namespace batten

@@ -7,7 +7,8 @@ namespace batten {
 
 /// The control mesh and what was achieved.
 struct FairMesh {
-  Mesh mesh;  ///< refined; the scheme of its surface is stated in it
+  Mesh mesh;     ///< refined; the scheme of its surface is stated in it
+  Values plain;  ///< control points of the surface that Interpolator gives, on the same connectivity
   Topology topology;
   Scheme scheme;
   FairReport report;

@@ -77,12 +77,23 @@ FairSystem::FairSystem(const LimitMatrix& limit, Index original_count, Scalars p
   transposed_ = to_control_.transpose();
 }
 
-Values FairSystem::unknowns(ConstValuesRef control, ConstValuesRef targets) const {
+Values FairSystem::unknowns(ConstValuesRef control) const {
   Values result(to_control_.cols(), control.cols());
   for (Index v = 0; v < static_cast<Index>(control.rows()); ++v) {
     if (unknown_of_[v] >= 0) result.row(unknown_of_[v]) = control.row(v);
   }
-  if (target_factors_.empty()) result.topRows(targets.rows()) = targets;
+  // Positions: the rows of T the other way.
+  for (Index v = 0; v < static_cast<Index>(position_weights_.size()); ++v) {
+    double own = 1.0;
+    for (Matrix::InnerIterator entry(to_control_, v); entry; ++entry) {
+      if (entry.col() == v) {
+        own = entry.value();
+      } else {
+        result.row(v) -= entry.value() * result.row(entry.col());
+      }
+    }
+    result.row(v) /= own;
+  }
   return result;
 }
 

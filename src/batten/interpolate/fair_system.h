@@ -25,8 +25,8 @@ class FairSystem {
 
   const Matrix& to_control() const { return to_control_; }  ///< T
 
-  /// y of control points: what T does not give is forgotten.
-  Values unknowns(ConstValuesRef control, ConstValuesRef targets) const;
+  /// y of control points; the surface through the targets forgets where they have the original vertices.
+  Values unknowns(ConstValuesRef control) const;
   /// T y + C q.
   Values control(const Values& unknowns, ConstValuesRef targets) const;
 
