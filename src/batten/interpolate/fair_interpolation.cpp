@@ -127,7 +127,8 @@ class FairSolve {
   double energy(const Values& control) const { return energy_.energy(control); }
   const FairNormals& normals() const { return normals_; }
 
-  /// The control points after all rounds. lengths: the first reference. plain: where the search starts, if it may.
+  /// The control points after all rounds. lengths: the first reference. plain: where the search starts, with its
+  /// normals turned, if there is one.
   Values run(const Values& targets, const Values& lengths, const std::optional<Values>& plain, FairReport& report,
              const Progress& progress);
 
@@ -171,11 +172,14 @@ Values FairSolve::run(const Values& targets, const Values& lengths, const std::o
                       FairReport& report, const Progress& progress) {
   if (options_.normals.size() > 0) {
     const Values nothing = Values::Zero(system_.to_control().cols(), 3);
-    normals_ = FairNormals(fine_.topology, fine_.scheme, options_.normals, system_.to_control(),
-                           system_.control(nothing, targets));
+    normals_ = FairNormals(limit_, options_.normals, system_.to_control(), system_.control(nothing, targets));
   }
   std::optional<Values> control;
-  if (plain && position_weights_.size() == 0 && normals_.empty()) control = plain;
+  if (plain) {
+    Values unknowns = system_.unknowns(*plain);
+    normals_.meet(unknowns);
+    control = system_.control(unknowns, targets);
+  }
   double level = control ? objective(*control, targets) : 0.0;
   report.kept_plain = control.has_value();
   StopRule stop;

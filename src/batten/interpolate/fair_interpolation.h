@@ -30,8 +30,8 @@ struct FairOptions {
   /// A wave of this length comes out half as high, shorter ones vanish and longer ones stay.
   double smoothing = 0.0;
   /// Normals that the surface shall have at its vertices: V-by-3 of any length, rows of zeros where none is wanted.
-  /// Empty: none. The surface's tangent plane becomes perpendicular to the normal; on a crease or a corner that of the
-  /// side where the vertex's fan starts.
+  /// Empty: none. The surface's tangent plane becomes perpendicular to the normal. Vertices of creases and corners,
+  /// which have several normals or none, are left out.
   Values normals = {};
   int rounds = 2;           ///< references one after the other, 1 to 20
   double tolerance = 1e-6;  ///< the energy is within its square, about, of the least, relative to the plain one's
@@ -47,9 +47,9 @@ struct FairReport {
   double max_error = 0.0;  ///< max_i |limit position of vertex i - target i|
   double rms_error = 0.0;
   Index worst_vertex = -1;  ///< where max_error is reached
-  Index normal_count = 0;   ///< normals that were wanted and can be had: the vertex has a tangent plane
+  Index normal_count = 0;   ///< normals that were wanted, at vertices that have exactly one
   double max_angle = 0.0;   ///< the largest angle between a normal wanted and reached, in radians
-  bool kept_plain = false;  ///< the plain surface has the least energy of all that were tried
+  bool kept_plain = false;  ///< the plain surface, turned to wanted normals, is the best that was found
   SolveReport solve;        ///< of all rounds
 };
 

@@ -12,26 +12,37 @@ namespace batten {
 
 namespace {
 
-/// Singular values below are zero: a tangent that does not depend on the unknowns.
+/// Singular values below this share of the largest are zero: tangents that are parallel whatever the unknowns.
 constexpr double kNoTangent = 1e-9;
+
+/// Creases have a normal on each side, corners a cone of them.
+bool has_one_normal(const LimitMatrix& limit, Index vertex, VertexRing& ring) {
+  if (limit.row_kind(vertex) == LimitRow::Fixed) return false;
+  const RingRules rules = ring_rules(limit.topology(), limit.scheme(), 0.0, vertex, ring);
+  return limit_sectors(rules, LimitMasks::Exact).size() == 1;
+}
 
 }  // namespace
 
-FairNormals::FairNormals(const Topology& refined, const Scheme& scheme, ConstValuesRef normals,
+FairNormals::FairNormals(const LimitMatrix& limit, ConstValuesRef normals,
                          const Eigen::SparseMatrix<double, Eigen::RowMajor>& to_control, const Values& constant) {
+  const Topology& refined = limit.topology();
+  VertexRing ring;
   for (Index v = 0; v < static_cast<Index>(normals.rows()); ++v) {
-    if (normals.row(v).isZero(0.0) || refined.is_isolated(v)) continue;
+    if (normals.row(v).isZero(0.0) || !has_one_normal(limit, v, ring)) continue;
     const Eigen::RowVector3d normal = normals.row(v).normalized();
     VertexWeights entries;  // of both tangents: the column's number twice, plus the tangent's
     Eigen::Vector2d values(0.0, 0.0);
     for (int t = 0; t < 2; ++t) {
       const TileValue tangent = t == 0 ? TileValue::TangentU : TileValue::TangentV;
-      visit_vertex_limit(refined, scheme, tangent, refined.vertex_half_edge(v), [&](Index vertex, double weight) {
-        values[t] -= weight * normal.dot(constant.row(vertex));
-        for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator entry(to_control, vertex); entry; ++entry) {
-          entries.emplace_back(2 * static_cast<Index>(entry.col()) + t, weight * entry.value());
-        }
-      });
+      visit_vertex_limit(refined, limit.scheme(), tangent, refined.vertex_half_edge(v),
+                         [&](Index vertex, double weight) {
+                           values[t] -= weight * normal.dot(constant.row(vertex));
+                           for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator entry(to_control, vertex);
+                                entry; ++entry) {
+                             entries.emplace_back(2 * static_cast<Index>(entry.col()) + t, weight * entry.value());
+                           }
+                         });
     }
     merge(entries);
     Condition condition;
@@ -48,7 +59,7 @@ FairNormals::FairNormals(const Topology& refined, const Scheme& scheme, ConstVal
     // Rows become orthonormal: U S W^T heights = values is W^T heights = S^-1 U^T values.
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeThinU | Eigen::ComputeThinV);
     const auto rank = (svd.singularValues().array() > kNoTangent * std::max(1e-300, svd.singularValues()[0])).count();
-    if (rank == 0) continue;
+    if (rank < 2) continue;  // no tangent plane
     condition.rows = svd.matrixV().leftCols(rank).transpose();
     condition.values = (svd.matrixU().transpose() * values).head(rank).cwiseQuotient(svd.singularValues().head(rank));
     conditions_.push_back(std::move(condition));

@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "batten/buffer.h"
-#include "batten/mesh/topology.h"
-#include "batten/scheme/scheme.h"
+#include "batten/limit/limit_matrix.h"
 #include "batten/types.h"
 
 namespace batten {
@@ -18,9 +17,9 @@ namespace batten {
 class FairNormals {
  public:
   FairNormals() = default;
-  /// normals: V-by-3, zero rows for none. refined: of the mesh refined twice. to_control, constant: control points by
-  /// unknowns, as FairSystem has them.
-  FairNormals(const Topology& refined, const Scheme& scheme, ConstValuesRef normals,
+  /// limit: of the mesh refined twice. normals: V-by-3, zero rows for none; vertices without exactly one normal are
+  /// left out. to_control, constant: control points by unknowns, as FairSystem has them.
+  FairNormals(const LimitMatrix& limit, ConstValuesRef normals,
               const Eigen::SparseMatrix<double, Eigen::RowMajor>& to_control, const Values& constant);
 
   bool empty() const { return conditions_.empty(); }
@@ -37,7 +36,7 @@ class FairNormals {
   struct Condition {
     Eigen::RowVector3d normal;
     std::vector<Index> columns;  ///< of unknowns
-    Eigen::MatrixXd rows;        ///< orthonormal, one or two
+    Eigen::MatrixXd rows;        ///< two, orthonormal
     Eigen::VectorXd values;      ///< what rows * heights shall be
   };
   void move(Values& unknowns, double values_factor) const;
