@@ -47,5 +47,31 @@ TEST(TriangleJet, HasTheDerivativesOfItsValues) {
   }
 }
 
+/// Second derivatives are cubic along a line, or less: four-point differences are exact.
+TEST(RegularJet, HasTheThirdDerivativesOfItsSecondOnes) {
+  const double h = 0.05;
+  for (const bool quads : {true, false}) {
+    for (const auto& [u, v] : {std::array{0.3, 0.2}, std::array{0.1, 0.75}}) {
+      const auto difference = [&, u = u, v = v](const std::array<double, 16> JetWeights::*part, double du, double dv,
+                                                int k) {
+        const auto at = [&](double steps) {
+          JetWeights weights;
+          jet_weights(quads, u + steps * h * du, v + steps * h * dv, weights);
+          return (weights.*part)[k];
+        };
+        return (8.0 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12.0 * h);
+      };
+      ThirdWeights third;
+      third_weights(quads, u, v, third);
+      for (int k = 0; k < patch_size(quads); ++k) {
+        EXPECT_NEAR(third.duuu[k], difference(&JetWeights::duu, 1, 0, k), 1e-13);
+        EXPECT_NEAR(third.duuv[k], difference(&JetWeights::duu, 0, 1, k), 1e-13);
+        EXPECT_NEAR(third.duvv[k], difference(&JetWeights::dvv, 1, 0, k), 1e-13);
+        EXPECT_NEAR(third.dvvv[k], difference(&JetWeights::dvv, 0, 1, k), 1e-13);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace batten
