@@ -1,5 +1,5 @@
-/// subdivide --compare: sets Butterfly, Modified Butterfly and the interpolated Loop and Catmull-Clark surfaces of one
-/// triangle mesh side by side.
+/// subdivide --compare: sets Butterfly, Modified Butterfly, the interpolated Loop and Catmull-Clark surfaces and the
+/// fairest Loop surface of one triangle mesh side by side.
 #include <fmt/format.h>
 
 #include <cmath>

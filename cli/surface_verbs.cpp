@@ -107,9 +107,10 @@ void add_subdivide(CLI::App& app, SubdivideArguments& arguments, int& status) {
       ->check(whole_number(0, 16));
   verb.add_flag("--limit", arguments.limit, "then move the vertices to the limit surface, with its normals");
   add_adaptive(verb, arguments);
-  verb.add_flag("--compare", arguments.compare,
-                "measure how fair Butterfly, Modified Butterfly and the interpolated Loop and Catmull-Clark surfaces "
-                "of a triangle mesh are; --picture draws them side by side by their mean curvature");
+  verb.add_flag(
+      "--compare", arguments.compare,
+      "measure how fair Butterfly, Modified Butterfly, the interpolated Loop and Catmull-Clark surfaces and "
+      "the fairest Loop surface of a triangle mesh are; --picture draws them side by side by their mean curvature");
   add_picture(verb, arguments.picture);
   add_range(verb, arguments.picture);
   set_run(verb, arguments.common, status, [&] {

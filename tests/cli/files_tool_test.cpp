@@ -123,7 +123,7 @@ TEST_F(Files, EveryOutputGoesToStandardOutput) {
   EXPECT_NE(run("interpolate mesh.obj --compare-methods --plot -").out.find("</svg>"), std::string::npos);
   EXPECT_EQ(run("distance mesh.obj mesh.obj -o -").out.rfind("ply\n", 0), 0U);
   const Outcome compared = run("subdivide mesh.obj --compare --levels 1 --report -");
-  EXPECT_EQ(nlohmann::json::parse(compared.out)["compared"].size(), 4U);
+  EXPECT_EQ(nlohmann::json::parse(compared.out)["compared"].size(), 5U);
   EXPECT_FALSE(fs::exists(path("-")));
 }
 

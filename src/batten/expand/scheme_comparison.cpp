@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "batten/error.h"
+#include "batten/interpolate/fair_interpolation.h"
 #include "batten/interpolate/interpolator.h"
 #include "batten/limit/limit_matrix.h"
 #include "batten/mesh/unit_scale.h"
@@ -19,31 +20,52 @@ namespace {
 struct ComparedScheme {
   const char* name;
   SchemeKind kind;
+  bool fair;
 };
-constexpr std::array<ComparedScheme, 4> kComparedSchemes{{{"Butterfly", SchemeKind::Butterfly},
-                                                          {"Modified Butterfly", SchemeKind::ModifiedButterfly},
-                                                          {"interpolated Loop", SchemeKind::Loop},
-                                                          {"interpolated Catmull-Clark", SchemeKind::CatmullClark}}};
+constexpr std::array<ComparedScheme, 5> kComparedSchemes{
+    {{"Butterfly", SchemeKind::Butterfly, false},
+     {"Modified Butterfly", SchemeKind::ModifiedButterfly, false},
+     {"interpolated Loop", SchemeKind::Loop, false},
+     {"fair Loop", SchemeKind::Loop, true},
+     {"interpolated Catmull-Clark", SchemeKind::CatmullClark, false}}};
+
+/// Control points of a surface, refined so often already.
+struct ComparedControl {
+  RefinedSurface surface;
+  Scheme scheme;
+  int levels = 0;
+};
 
 /// The surface through the points.
-Interpolant through_points(const Topology& topology, ConstValuesRef points, ComparedSurface& compared,
-                           const Progress& progress) {
+ComparedControl through_points(const Topology& topology, ConstValuesRef points, ComparedSurface& compared,
+                               const Progress& progress) {
   const Interpolator interpolator(topology, compared.scheme, {}, progress_within(progress, 0.0, 0.3));
-  Interpolant interpolant = interpolator.solve(points, progress_within(progress, 0.3, 1.0));
-  compared.method = interpolant.report.solve.method_name;
-  compared.iterations = interpolant.report.solve.iterations;
-  compared.max_error = interpolant.report.max_error;
-  if (!interpolant.report.converged()) {
+  Interpolant plain = interpolator.solve(points, progress_within(progress, 0.3, 1.0));
+  compared.method = plain.report.solve.method_name;
+  compared.iterations = plain.report.solve.iterations;
+  compared.max_error = plain.report.max_error;
+  if (!plain.report.converged()) {
     std::ostringstream what;
     what.precision(2);
     what << "not solved: it still misses vertices by " << compared.max_error << " after " << compared.iterations
          << " iterations";
     throw Error(ErrorCode::NotConverged, what.str());
   }
-  return interpolant;
+  const int levels = plain.topology.vertex_count() > topology.vertex_count() ? 1 : 0;
+  return {{plain.topology, std::move(plain.control)}, plain.scheme, levels};
 }
 
-void build(const Topology& topology, ConstValuesRef points, int levels, ComparedSurface& compared,
+/// The fairest one.
+ComparedControl fair_through_points(const Topology& topology, ConstValuesRef points, ComparedSurface& compared,
+                                    const Progress& progress) {
+  FairInterpolant fair = interpolate_fairly(topology, compared.scheme, points, {}, progress);
+  compared.method = "fair, " + fair.report.solve.method_name;
+  compared.iterations = fair.report.solve.iterations;
+  compared.max_error = fair.report.max_error;
+  return {{fair.topology, std::move(fair.control)}, fair.scheme, fair.report.levels};
+}
+
+void build(const Topology& topology, ConstValuesRef points, int levels, bool fair, ComparedSurface& compared,
            const Progress& progress) {
   constexpr double kSolved = 0.4;  // of the time
   constexpr double kRefined = 0.7;
@@ -55,12 +77,12 @@ void build(const Topology& topology, ConstValuesRef points, int levels, Compared
   if (is_interpolating(scheme.kind)) {
     surface.values = points;
   } else {
-    Interpolant control = through_points(topology, points, compared, progress_within(progress, 0.0, kSolved));
-    if (control.topology.vertex_count() > topology.vertex_count()) {
-      surface.topology = control.topology;
-      steps = std::max(0, levels - 1);
-    }
-    surface.values = std::move(control.control);
+    const Progress solving = progress_within(progress, 0.0, kSolved);
+    ComparedControl control = fair ? fair_through_points(topology, points, compared, solving)
+                                   : through_points(topology, points, compared, solving);
+    if (control.levels > 0) surface.topology = control.surface.topology;
+    surface.values = std::move(control.surface.values);
+    steps = std::max(0, levels - control.levels);
     scheme = control.scheme;
   }
   surface = refine(surface.topology, scheme, surface.values, steps, progress_within(progress, kSolved, kRefined));
@@ -103,7 +125,7 @@ std::vector<ComparedSurface> compare_schemes(const Topology& topology, const Sch
     const double share = 1.0 / static_cast<double>(kComparedSchemes.size());
     const double begin = share * static_cast<double>(all.size());
     try {
-      build(topology, scaled, levels, compared, progress_within(progress, begin, begin + share));
+      build(topology, scaled, levels, contestant.fair, compared, progress_within(progress, begin, begin + share));
     } catch (const Error& error) {
       if (error.code() == ErrorCode::Cancelled) throw;
       compared.failure = error.what();

@@ -1,5 +1,5 @@
-/// \file Butterfly, Modified Butterfly and the interpolated Loop and Catmull-Clark surfaces of one triangle mesh,
-/// measured by one rule.
+/// \file Butterfly, Modified Butterfly, the interpolated Loop and Catmull-Clark surfaces and the fairest Loop surface
+/// of one triangle mesh, measured by one rule.
 #pragma once
 #include <string>
 #include <vector>
@@ -12,7 +12,8 @@ namespace batten {
 
 /// One surface through the vertices, as a fine mesh on it.
 struct ComparedSurface {
-  std::string name;  ///< "Butterfly", "Modified Butterfly", "interpolated Loop", "interpolated Catmull-Clark"
+  /// "Butterfly", "Modified Butterfly", "interpolated Loop", "fair Loop", "interpolated Catmull-Clark"
+  std::string name;
   Scheme scheme;
   std::string failure;  ///< why there is no surface, or empty
   std::string method;   ///< how it was interpolated; empty where there was nothing to solve
@@ -23,7 +24,7 @@ struct ComparedSurface {
   Fairness fairness;       ///< its area is infinite where doubles cannot hold it
 };
 
-/// All four, refined `levels` times. points: V-by-3, finite, the vertices of a mesh of triangles; scheme: the rules to
+/// All five, refined `levels` times. points: V-by-3, finite, the vertices of a mesh of triangles; scheme: the rules to
 /// follow, its kind does not matter. What a surface's operators throw is its `failure`, but Error(Cancelled). Measured
 /// at a scale where squares of coordinates are ordinary numbers (mesh/unit_scale.h).
 /// Throws Error(NotTriangles, BadShape, Cancelled).

@@ -5,6 +5,14 @@
 
 namespace batten {
 
+namespace {
+
+/// What the scaled diagonal grows by where a pivot is not positive. Smaller ones take longer to build and save no
+/// iterations; far smaller ones make the factor useless.
+constexpr double kShift = 1e-2;
+
+}  // namespace
+
 IncompleteFactor::IncompleteFactor(const Eigen::SparseMatrix<double, Eigen::RowMajor>& matrix) {
   // The vertices' own order, in which neighbours stand near each other, is as good as a fill-reducing one where nothing
   // is filled in (docs/decisions/010-fair-solver.md).
@@ -13,6 +21,7 @@ IncompleteFactor::IncompleteFactor(const Eigen::SparseMatrix<double, Eigen::RowM
                                                               matrix.outerIndexPtr(), matrix.innerIndexPtr(),
                                                               matrix.valuePtr());  // equal to its rows
   Factor factor;
+  factor.setInitialShift(kShift);
   factor.compute(columns);
   const auto& lower = factor.matrixL();
   starts_.assign(lower.outerIndexPtr(), lower.outerIndexPtr() + lower.cols() + 1);
