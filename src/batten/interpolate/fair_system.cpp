@@ -1,5 +1,6 @@
 #include "batten/interpolate/fair_system.h"
 
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -32,6 +33,11 @@ void multiply(const Matrix& matrix, const Values& values, Values& result) {
       },
       kRowBlock);
 }
+
+/// Where conjugate gradients need more iterations, as with long smoothing, the whole Cholesky factor takes less time
+/// than they do, for some 10,000 unknowns far less; for more than so many its time and memory grow too fast.
+constexpr int kFewIterations = 40;
+constexpr Eigen::Index kMostFactored = 40000;
 
 /// Unknowns without an energy, such as the points around holes, keep their values: their equation is 1 x = 0.
 void hold_unused(Matrix& matrix) {
@@ -127,20 +133,40 @@ SolveReport FairSystem::minimise(const Matrix& energy, ConstValuesRef targets, c
   hold_unused(reduced);
   Values right = -gradient;
   normals.project(right);
-  const IncompleteFactor factor(reduced);
   const auto product = [&](const Values& x, Values& y) {
     multiply(reduced, x, y);
-    normals.project(y);
-  };
-  const auto precondition = [&](const Values& x, Values& y) {
-    factor.solve(x, y);
     normals.project(y);
   };
   StopRule within = stop;
   within.tolerance *= std::sqrt(std::max(0.0, level));
   Values step = Values::Zero(unknowns.rows(), unknowns.cols());
-  const SolveReport report = conjugate_gradients(
-      product, precondition, normals.empty() ? Coefficients::EachColumn : Coefficients::Joint, right, step, within);
+  const auto iterate = [&](const LinearMap& solve, int most) {
+    const auto precondition = [&](const Values& x, Values& y) {
+      solve(x, y);
+      normals.project(y);
+    };
+    within.max_iterations = most;
+    return conjugate_gradients(product, precondition, normals.empty() ? Coefficients::EachColumn : Coefficients::Joint,
+                               right, step, within);
+  };
+  const bool may_be_factored = normals.empty() && reduced.rows() <= kMostFactored;
+  const IncompleteFactor incomplete(reduced);
+  SolveReport report = iterate([&](const Values& x, Values& y) { incomplete.solve(x, y); },
+                               may_be_factored ? std::min(kFewIterations, stop.max_iterations) : stop.max_iterations);
+  if (!report.converged && may_be_factored && report.iterations < stop.max_iterations) {
+    const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> whole{Eigen::SparseMatrix<double>(reduced)};
+    const bool is_definite = whole.info() == Eigen::Success;
+    const LinearMap solve = [&](const Values& x, Values& y) {
+      if (is_definite) {
+        y = whole.solve(x);
+      } else {
+        incomplete.solve(x, y);
+      }
+    };
+    SolveReport rest = iterate(solve, stop.max_iterations - report.iterations);
+    if (is_definite) rest.method_name = "sparse Cholesky";
+    report.append(rest, ", then ");
+  }
   unknowns += step;
   normals.meet(unknowns);
   return report;
