@@ -62,9 +62,9 @@ struct FairInterpolant {
 };
 
 /// targets: V-by-3, row i for vertex i, finite. Catmull-Clark and Loop. Without smoothing and normals the energy is at
-/// most that of the plain surface. Some 15 microseconds a vertex and round at one level, 60 at two; memory some 2 and 8
-/// kB a vertex. Throws Error(BadArgument) for the Butterflies and options out of range, Error(NotTriangles, BadShape,
-/// NotFinite, TooLarge, Cancelled).
+/// most that of the plain surface. Some 60 microseconds a vertex and round with one refinement, 500 with two; more
+/// where many vertices are irregular. Throws Error(BadArgument) for the Butterflies and options out of range,
+/// Error(NotTriangles, BadShape, NotFinite, TooLarge, Cancelled).
 FairInterpolant interpolate_fairly(const Topology& topology, const Scheme& scheme, ConstValuesRef targets,
                                    const FairOptions& options = {}, const Progress& progress = {});
 
