@@ -107,5 +107,32 @@ TEST_F(Tool, NoMethodTakesMoreIterationsThanAllowed) {
   EXPECT_LE(Json::parse(text_of(path("r.json")))["iterations"].get<int>(), 5);
 }
 
+TEST_F(Tool, AFairSurfacePassesThroughThePointsWithLessEnergy) {
+  const std::string command = "interpolate " + kModels + "coarse-joint.obj --fair ";
+  const Outcome result =
+      run(command + "-o fair.obj --report r.json --picture p.png --color mean --before-after --width 320");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("of the plain surface"), std::string::npos) << result.out;
+  EXPECT_TRUE(fs::exists(path("p.png")));
+  const Mesh given = read_mesh(kModels + "coarse-joint.obj");
+  const Mesh fair = read_mesh(path("fair.obj"));
+  EXPECT_LE(missed(fair, fair.points, given.points), 1e-9);
+  const Json report = Json::parse(text_of(path("r.json")));
+  EXPECT_EQ(report["fair"]["energy"], "variation");
+  EXPECT_LT(4.0 * report["fair"]["fair_energy"].get<double>(), report["fair"]["plain_energy"].get<double>());
+  EXPECT_EQ(report["written_vertices"], fair.vertex_count());
+  EXPECT_EQ(run(command + "-o soft.obj --report s.json --smoothing 5%").status, 0);
+  const Json soft = Json::parse(text_of(path("s.json")));
+  EXPECT_GT(soft["max_error"].get<double>(), 1e-6);
+  EXPECT_LT(soft["fair"]["fair_energy"], report["fair"]["fair_energy"]);
+}
+
+TEST_F(Tool, OptionsOfFairSurfacesNeedTheFlag) {
+  const std::string command = "interpolate " + kModels + "pyramid.obj -o x.obj ";
+  EXPECT_EQ(run(command + "--energy bending").status, 2);
+  EXPECT_EQ(run(command + "--fair --method direct").status, 2);
+  EXPECT_EQ(run(command + "--fair --fair-levels 3").status, 2);
+}
+
 }  // namespace
 }  // namespace batten::cli_tests
