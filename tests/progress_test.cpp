@@ -12,6 +12,7 @@
 #include "batten/expand/scheme_comparison.h"
 #include "batten/expand/sharpen.h"
 #include "batten/expand/texture.h"
+#include "batten/interpolate/fair_interpolation.h"
 #include "batten/interpolate/interpolated_mesh.h"
 #include "batten/interpolate/local_normals.h"
 #include "batten/interpolate/method_comparison.h"
@@ -168,6 +169,8 @@ std::vector<Named> operations(const io_tests::TemporaryFolder& folder) {
        }},
       {"solve", [](const Progress& progress) { interpolator.solve(mesh.points, progress); }},
       {"interpolate", [](const Progress& progress) { interpolate(mesh, {}, progress); }},
+      {"interpolate fairly",
+       [](const Progress& progress) { interpolate_fairly(topology, scheme, mesh.points, {}, progress); }},
       {"morph",
        [](const Progress& progress) {
          static const MeshSeries series(topology, scheme);
