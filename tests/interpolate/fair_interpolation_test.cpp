@@ -12,6 +12,7 @@
 #include "batten/interpolate/fair_system.h"
 #include "batten/interpolate/interpolator.h"
 #include "batten/limit/limit_matrix.h"
+#include "batten/limit/vertex_limit.h"
 #include "batten/mesh/primitives.h"
 #include "batten/parallel/threads.h"
 #include "batten/refine/refinement.h"
@@ -118,6 +119,52 @@ TEST(FairInterpolation, IsTheSolutionOfTheDenseSystem) {
     EXPECT_TRUE(report.converged);
     EXPECT_LT((fair.control(unknowns, mesh.points) - expected).cwiseAbs().maxCoeff(), 1e-7);
   }
+}
+
+/// Likewise with wanted normals n: n . t = 0 for two tangents at each vertex, over the coordinates of all points.
+TEST(FairInterpolation, IsTheSolutionOfTheDenseSystemWithNormals) {
+  const Mesh mesh = test::jittered(octahedron(), 0.1, 1);
+  const Values wanted = (mesh.points + 0.2 * test::jittered(mesh, 1.0, 4).points).rowwise().normalized();
+  const RefinedSurface fine = refine(Topology(mesh), test::kLoop, mesh.points, 2);
+  const ShapeEnergy::Matrix energy =
+      ShapeEnergy(SurfacePatches(fine.topology, test::kLoop), ShapeEnergyKind::Bending).matrix(fine.values);
+  const LimitMatrix limit(fine.topology, test::kLoop);
+  const Eigen::Index all = fine.values.rows();
+  const Eigen::Index given = mesh.points.rows();
+  Eigen::MatrixXd conditions = Eigen::MatrixXd::Zero(5 * given, 3 * all);
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(5 * given);
+  for (Index v = 0; v < static_cast<Index>(given); ++v) {
+    for (int c = 0; c < 3; ++c) {
+      limit.visit_row(v, [&](Index column, double weight) { conditions(5 * v + c, 3 * column + c) += weight; });
+      values[5 * v + c] = mesh.points(v, c);
+    }
+    for (const int t : {0, 1}) {
+      visit_vertex_limit(fine.topology, test::kLoop, t == 0 ? TileValue::TangentU : TileValue::TangentV,
+                         fine.topology.vertex_half_edge(v), [&](Index column, double weight) {
+                           conditions.block<1, 3>(5 * v + 3 + t, 3 * column) += weight * wanted.row(v);
+                         });
+    }
+  }
+  Eigen::MatrixXd system = Eigen::MatrixXd::Zero(3 * all + 5 * given, 3 * all + 5 * given);
+  for (Eigen::Index i = 0; i < all; ++i) {
+    for (ShapeEnergy::Matrix::InnerIterator entry(energy, i); entry; ++entry) {
+      for (int c = 0; c < 3; ++c) system(3 * i + c, 3 * entry.col() + c) = entry.value();
+    }
+  }
+  system.topRightCorner(3 * all, 5 * given) = conditions.transpose();
+  system.bottomLeftCorner(5 * given, 3 * all) = conditions;
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(system.rows());
+  right.tail(5 * given) = values;
+  const Eigen::VectorXd expected = system.fullPivLu().solve(right).head(3 * all);
+
+  const FairSystem fair(limit, mesh.vertex_count(), Scalars());
+  Values unknowns = fair.unknowns(fine.values);
+  const FairNormals normals(limit, wanted, fair.to_control(),
+                            fair.control(Values::Zero(unknowns.rows(), 3), mesh.points));
+  EXPECT_TRUE(
+      fair.minimise(energy, mesh.points, normals, {.tolerance = 1e-12, .max_iterations = 2000}, unknowns).converged);
+  const Values found = fair.control(unknowns, mesh.points);
+  EXPECT_LT((Eigen::Map<const Eigen::VectorXd>(found.data(), found.size()) - expected).cwiseAbs().maxCoeff(), 1e-7);
 }
 
 /// The root of the mean square over the area of what `deviation` says of each jet.
@@ -271,6 +318,8 @@ TEST(FairInterpolation, RefusesWhatHasNoMeaning) {
             }),
             ErrorCode::BadArgument);
   EXPECT_EQ(code([](FairOptions& /*o*/) {}, test::scheme_of(SchemeKind::Butterfly)), ErrorCode::BadArgument);
+  EXPECT_EQ(code([](FairOptions& /*o*/) {}, test::scheme_of(SchemeKind::Loop, BoundaryRule::None)),
+            ErrorCode::BadArgument);
 }
 
 TEST(FairMesh, KeepsAttributesWhereTheVerticesWere) {

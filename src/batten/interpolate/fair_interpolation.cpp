@@ -25,6 +25,9 @@ namespace batten {
 namespace {
 
 constexpr int kMostRounds = 20;
+/// In diagonals, about: control points of a sound surface stay nearer. Others are of a system that was nearly singular,
+/// and their surface may have lost its tangent planes and with them its energy.
+constexpr double kFarthest = 20.0;
 
 void require_options(const FairOptions& options, Index vertices) {
   const auto refuse = [](const std::string& what) { throw Error(ErrorCode::BadArgument, what); };
@@ -157,8 +160,9 @@ double FairSolve::objective(const Values& control, const Values& targets) const 
 /// The least of the quadratic energy need not have less energy in its own lengths. On the way to it from control points
 /// that meet the same conditions there may be some that have: all of the way, or a half, a quarter, an eighth.
 bool FairSolve::improve(const Values& least, const Values& targets, Values& control, double& level) const {
-  for (double step = 1.0; step > 0.1; step *= 0.5) {
+  for (const double step : {1.0, 0.5, 0.25, 0.125}) {
     Values trial = control + step * (least - control);
+    if (!(trial.cwiseAbs().maxCoeff() < kFarthest)) continue;
     const double reached = objective(trial, targets);
     if (!(reached < level)) continue;
     control = std::move(trial);
@@ -241,6 +245,11 @@ FairInterpolant interpolate_fairly(const Topology& topology, const Scheme& schem
   if (is_interpolating(scheme.kind)) {
     throw Error(ErrorCode::BadArgument, std::string(scheme_name(scheme.kind)) +
                                             " has one surface through the points; use Catmull-Clark or Loop");
+  }
+  if (scheme.boundary == BoundaryRule::None) {
+    throw Error(ErrorCode::BadArgument,
+                "where boundaries are no part of the surface (boundary none) the points there have no energy and no "
+                "fairest place; use boundary edge-only or edge-and-corner");
   }
   const int levels = options.levels.value_or(options.normals.size() > 0 ? 2 : 1);
   const UnitFrame frame(targets);

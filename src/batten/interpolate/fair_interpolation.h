@@ -63,8 +63,8 @@ struct FairInterpolant {
 
 /// targets: V-by-3, row i for vertex i, finite. Catmull-Clark and Loop. Without smoothing and normals the energy is at
 /// most that of the plain surface. Some 60 microseconds a vertex and round with one refinement, 500 with two; more
-/// where many vertices are irregular. Throws Error(BadArgument) for the Butterflies and options out of range,
-/// Error(NotTriangles, BadShape, NotFinite, TooLarge, Cancelled).
+/// where many vertices are irregular. Throws Error(BadArgument) for the Butterflies, BoundaryRule::None and options out
+/// of range, Error(NotTriangles, BadShape, NotFinite, TooLarge, Cancelled).
 FairInterpolant interpolate_fairly(const Topology& topology, const Scheme& scheme, ConstValuesRef targets,
                                    const FairOptions& options = {}, const Progress& progress = {});
 

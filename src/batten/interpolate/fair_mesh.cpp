@@ -23,7 +23,7 @@ FairMesh interpolate_fairly(const Topology& topology, const Scheme& scheme, Mesh
   refined.mesh.points = fair.control;
   state_scheme(fair.scheme, refined.mesh);
   plain.reports.erase(plain.reports.begin());
-  return {std::move(refined.mesh), std::move(plain_points), std::move(fair.topology), fair.scheme,
+  return {std::move(refined.mesh), std::move(plain_points), fair.topology, fair.scheme,
           std::move(fair.report),  std::move(plain.reports)};
 }
 

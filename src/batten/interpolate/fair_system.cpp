@@ -163,8 +163,10 @@ SolveReport FairSystem::minimise(const Matrix& energy, ConstValuesRef targets, c
         incomplete.solve(x, y);
       }
     };
+    const Values before = step;
     SolveReport rest = iterate(solve, stop.max_iterations - report.iterations);
     if (is_definite) rest.method_name = "sparse Cholesky";
+    if (!rest.converged) step = before;  // nearly singular
     report.append(rest, ", then ");
   }
   unknowns += step;

@@ -102,7 +102,7 @@ namespace {
 
 /// Where the columns are one vector, each has the sum of all columns' products.
 Eigen::RowVectorXd products(Coefficients coefficients, const Values& a, const Values& b) {
-  const Eigen::RowVectorXd dots = column_dots(a, b);
+  Eigen::RowVectorXd dots = column_dots(a, b);
   if (coefficients == Coefficients::EachColumn) return dots;
   return Eigen::RowVectorXd::Constant(dots.size(), dots.sum());
 }
