@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "batten/tessellate/surface_mesh.h"
 #include "cli/attributes.h"
 #include "cli/job.h"
+#include "cli/normals.h"
 #include "cli/picture.h"
 #include "cli/surface_output.h"
 
@@ -51,6 +53,10 @@ void print_table(const Topology& topology, const Scheme& scheme, const FairOptio
   table.add("max error", fmt::format("{:.3g} at vertex {} ({:.3g} of the diagonal)", report.max_error,
                                      report.worst_vertex, report.max_error / report.diagonal));
   table.add("rms error", fmt::format("{:.3g}", report.rms_error));
+  if (report.normal_count > 0) {
+    table.add("normals", fmt::format("{} wanted, reached to {:.3g} degrees", grouped(report.normal_count),
+                                     report.max_angle * 180.0 / std::numbers::pi));
+  }
   table.add("refined", size_text(result.mesh));
   if (!written.empty()) table.add("written", written);
   job.print(table);
@@ -79,7 +85,9 @@ nlohmann::ordered_json report_json(const Topology& topology, const Scheme& schem
             {"smoothing", options.smoothing},
             {"plain_energy", number_or_null(report.plain_energy)},
             {"fair_energy", number_or_null(report.energy)},
-            {"kept_plain", report.kept_plain}}},
+            {"kept_plain", report.kept_plain},
+            {"normals", report.normal_count},
+            {"max_angle", report.max_angle * 180.0 / std::numbers::pi}}},
           {"written_vertices", result.mesh.vertex_count()},
           {"written_faces", result.mesh.face_count()},
           {"peak_memory_bytes", peak_memory_bytes()}};
@@ -139,11 +147,13 @@ void draw_fair(const FairMesh& result, const Points& targets, const PictureArgum
 int run_fair(const InterpolateArguments& arguments) {
   const CommonArguments& common = arguments.common;
   Job job("interpolate", common);
+  require_surface(common, job.mesh);
   require_values(common, job.mesh);
   const Topology topology = job.connect();
   const Scheme scheme = scheme_for(common, job.mesh);
   const Points targets = job.mesh.points;
-  const FairOptions options = options_of(arguments.fair, bounding_diagonal(targets));
+  FairOptions options = options_of(arguments.fair, bounding_diagonal(targets));
+  options.normals = wanted_for(arguments.normals, topology, job);
   const AttributeRule rule = common.attributes.value_or(AttributeRule::Interpolated);
   const FairMesh result = interpolate_fairly(topology, scheme, std::move(job.mesh), rule, options,
                                              ProgressBar("interpolating", common.quiet).callback());

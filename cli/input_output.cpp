@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "batten/error.h"
 #include "batten/io/file_paths.h"
 #include "batten/io/io.h"
 #include "batten/io/losses.h"
@@ -64,6 +65,12 @@ Mesh read_input(const CommonArguments& arguments, nlohmann::ordered_json* repair
   }
   if (arguments.triangulate) mesh = triangulated(mesh);
   return mesh;
+}
+
+void require_surface(const CommonArguments& arguments, const Mesh& mesh) {
+  if (mesh.face_count() > 0) return;
+  throw Error(ErrorCode::BadArgument,
+              arguments.input + ": there are no faces, only points; a surface needs a mesh over its points");
 }
 
 UpAxis up_axis_for(const CommonArguments& arguments, const Mesh& mesh) {

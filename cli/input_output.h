@@ -15,6 +15,8 @@ Mesh read_file(const std::string& path, const std::string& format, bool quiet,
 /// `repairs` (left null without --repair) for the report; `notes` as above.
 Mesh read_input(const CommonArguments& arguments, nlohmann::ordered_json* repairs = nullptr,
                 std::vector<std::string>* notes = nullptr);
+/// Throws where there are points alone, which make no surface.
+void require_surface(const CommonArguments& arguments, const Mesh& mesh);
 /// That of --up, or find_up_axis of the mesh, which is the input's.
 UpAxis up_axis_for(const CommonArguments& arguments, const Mesh& mesh);
 /// Writes to the output; does nothing without one.

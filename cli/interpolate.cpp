@@ -219,10 +219,7 @@ std::vector<MethodResult> compare_and_plot(const InterpolateArguments& arguments
 int run_interpolate(const InterpolateArguments& arguments) {
   const CommonArguments& common = arguments.common;
   Job job("interpolate", common);
-  if (job.mesh.face_count() == 0) {
-    throw Error(ErrorCode::BadArgument,
-                common.input + ": there are no faces, only points; a surface needs a mesh over its points");
-  }
+  require_surface(common, job.mesh);
   require_values(common, job.mesh);
   const Topology topology = job.connect();
   const Scheme scheme = scheme_for(common, job.mesh);

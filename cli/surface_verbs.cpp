@@ -37,7 +37,7 @@ void add_adaptive(CLI::App& verb, SubdivideArguments& arguments) {
 void add_fair(CLI::App& verb, FairArguments& fair) {
   verb.add_flag("--fair", fair.fair,
                 "the surface through the points that swings least, on the mesh refined; its control mesh is written");
-  verb.add_option("--fair-levels", fair.levels, "refine so often, 1 or 2; once if not given")
+  verb.add_option("--fair-levels", fair.levels, "refine so often, 1 or 2; once if not given, with --normals twice")
       ->check(whole_number(1, 2));
   add_choice(verb, "--energy", fair.energy, kShapeEnergies,
              "what a fair surface has little of: area, curvature, or change of curvature (variation, if not given)");
@@ -89,7 +89,8 @@ void add_interpolate(CLI::App& app, InterpolateArguments& arguments, int& status
     if (arguments.fair.fair) {
       require_alone(verb, "--fair",
                     {"--method", "--tolerance", "--omega", "--max-iterations", "--on-singular", "--limit-masks",
-                     "--compare-methods", "--plot", "--normals", "--normal-tolerance", "--keep-ripples"});
+                     "--compare-methods", "--plot", "--normal-tolerance", "--keep-ripples"});
+      if (arguments.picture.coloring == Coloring::Normals) require_alone(verb, "--fair", {"--color"});
       return run_fair(arguments);
     }
     if (arguments.options.method != SolveMethod::Jacobi) require_with(verb, {"--omega"}, {"--compare-methods"});

@@ -138,5 +138,21 @@ TEST_F(NormalsTool, DrawsAnglesAndBothSurfaces) {
   }
 }
 
+TEST_F(NormalsTool, TheFairestSurfaceHasTheNormalsWanted) {
+  const Outcome result =
+      run("interpolate " + kModels + "icosahedron.obj --fair --normals estimate -o a.obj --report r.json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("12 wanted"), std::string::npos) << result.out;
+  const auto fair = nlohmann::json::parse(text_of(path("r.json"))).at("fair");
+  EXPECT_EQ(fair.at("normals"), 12);
+  EXPECT_LT(fair.at("max_angle"), 1e-8);
+  const Mesh written = read_mesh(path("a.obj"));
+  const Values normals = limit_normals(Topology(written), choose_scheme(written), written.points).vertices;
+  const Mesh given = read_mesh(kModels + "icosahedron.obj");
+  for (Index v = 0; v < 12; ++v) EXPECT_GT(normals.row(v).dot(given.points.row(v).normalized()), 1.0 - 1e-12) << v;
+  EXPECT_EQ(run("interpolate " + kModels + "icosahedron.obj --fair --normals estimate --fair-levels 1 -o b.obj").status,
+            1);
+}
+
 }  // namespace
 }  // namespace batten::cli_tests

@@ -23,7 +23,7 @@
 
 namespace batten {
 
-/// Three points a side, and one halving: spheres come out no rounder with more (docs/decisions/010-fair-solver.md).
+/// Three points a side, and one halving: spheres come out no rounder with more (docs/decisions/011-fair-solver.md).
 inline constexpr QuadratureOptions kShapeQuadrature{3, 1};
 
 /// Built for a connectivity. Const and safe from several threads; no result depends on their number. Control points are

@@ -15,7 +15,7 @@ constexpr double kShift = 1e-2;
 
 IncompleteFactor::IncompleteFactor(const Eigen::SparseMatrix<double, Eigen::RowMajor>& matrix) {
   // The vertices' own order, in which neighbours stand near each other, is as good as a fill-reducing one where nothing
-  // is filled in (docs/decisions/010-fair-solver.md).
+  // is filled in (docs/decisions/011-fair-solver.md).
   using Factor = Eigen::IncompleteCholesky<double, Eigen::Lower, Eigen::NaturalOrdering<int>>;
   const Eigen::Map<const Eigen::SparseMatrix<double>> columns(matrix.rows(), matrix.cols(), matrix.nonZeros(),
                                                               matrix.outerIndexPtr(), matrix.innerIndexPtr(),
