@@ -26,6 +26,7 @@
 #include "batten/interpolate/fair_interpolation.h"
 #include "batten/interpolate/fair_mesh.h"
 #include "batten/interpolate/interpolated_mesh.h"
+#include "batten/interpolate/interpolation_updates.h"
 #include "batten/interpolate/interpolator.h"
 #include "batten/interpolate/local_normals.h"
 #include "batten/interpolate/method_comparison.h"

@@ -7,7 +7,7 @@ namespace batten {
 
 Interpolator::Interpolator(const Topology& topology, const Scheme& scheme, const InterpolateOptions& options,
                            const Progress& progress)
-    : system_(std::make_unique<const InterpolationSystem>(topology, scheme, options, progress)) {}
+    : system_(std::make_shared<const InterpolationSystem>(topology, scheme, options, progress)) {}
 
 Interpolator::~Interpolator() = default;
 Interpolator::Interpolator(Interpolator&&) noexcept = default;

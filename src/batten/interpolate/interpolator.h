@@ -23,6 +23,7 @@
 namespace batten {
 
 class InterpolationSystem;
+class InterpolationUpdates;
 
 /// What is refined once where OnSingular::Alpha acts.
 enum class RefinedExtent {
@@ -82,7 +83,8 @@ class Interpolator {
   std::vector<Interpolant> solve_together(std::span<const Targets> sets, const Progress& progress = {}) const;
 
  private:
-  std::unique_ptr<const InterpolationSystem> system_;
+  friend class InterpolationUpdates;
+  std::shared_ptr<const InterpolationSystem> system_;
 };
 
 }  // namespace batten
