@@ -76,6 +76,7 @@ std::string machine();
 
 std::string interpolation_section();
 std::string growth_section();
+std::string update_section();
 std::string process_section();
 std::string file_section();
 std::string picture_section();

@@ -2,6 +2,7 @@
 #include <cstdlib>
 #include <random>
 
+#include "batten/interpolate/interpolation_updates.h"
 #include "batten/io/io.h"
 #include "batten/mesh/primitives.h"
 #include "bench/bench.h"
@@ -135,6 +136,48 @@ std::string growth_section() {
                number(1e9 * seconds[0] / count), number(1e9 * seconds[1] / count)});
   }
   return "## Growth with size (noisy tori)\n\n" + table.text() + "\n";
+}
+
+namespace {
+
+/// Moves so many targets by up to `share` of the diagonal: vertices whose numbers follow each other, which lie near
+/// each other on a refined mesh.
+void add_updates(InterpolationUpdates& updates, Index targets, double share, double whole, MarkdownTable& table) {
+  const double length = share * bounding_diagonal(updates.targets());
+  std::mt19937 generator(5);
+  std::uniform_real_distribution<double> shift(-length, length);
+  std::vector<double> seconds;
+  std::vector<double> moved;
+  for (int move = 0; move < 101; ++move) {
+    std::vector<Index> rows(static_cast<std::size_t>(targets));
+    rows[0] = static_cast<Index>(generator() % static_cast<unsigned>(updates.targets().rows() - targets));
+    for (std::size_t i = 1; i < rows.size(); ++i) rows[i] = rows[i - 1] + 1;
+    const Values before = updates.targets().middleRows(rows[0], targets);
+    Values values = before;
+    for (double& coordinate : values.reshaped()) coordinate += shift(generator);
+    UpdateReport report;
+    seconds.push_back(seconds_of([&] { report = updates.update(rows, values); }));
+    moved.push_back(report.moved);
+    if (!report.is_local) throw std::runtime_error("an update was not local");
+    updates.update(rows, before);
+  }
+  table.add({std::to_string(targets), number(share), std::to_string(static_cast<Index>(median(moved))),
+             number(1e3 * median(seconds)), number(whole / median(seconds))});
+}
+
+}  // namespace
+
+std::string update_section() {
+  const Subject moving = subject(500000);
+  const Interpolator interpolator(moving.topology, moving.scheme);
+  const double whole = in_turn({[&] { interpolator.solve(moving.targets); }}, 5)[0];
+  InterpolationUpdates updates(interpolator, moving.targets);
+  MarkdownTable table({"targets that move", "by, of the diagonal", "control points moved", "ms", "times faster"});
+  for (const double share : {1e-4, 1e-3, 1e-2, 1e-1}) add_updates(updates, 1, share, whole, table);
+  for (const Index targets : {10, 100, 1000}) add_updates(updates, targets, 1e-3, whole, table);
+  return "## Targets that move, " + moving.name + ": " + std::to_string(moving.topology.vertex_count()) +
+         " vertices\n\nBeside solving all of it again (" + number(1e3 * whole) + " ms), to 1/16 of its tolerance.\n\n" +
+         table.text() + "\n";
 }
 
 }  // namespace batten::bench

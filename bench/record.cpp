@@ -30,8 +30,8 @@ int main(int argc, char** argv) {
     return 2;
   }
   std::string page = "Threads: " + std::to_string(batten::thread_count()) + ". " + machine() + "\n";
-  for (const auto& section : {topology_section, interpolation_section, growth_section, file_section, picture_section,
-                              nearest_section, series_section, process_section}) {
+  for (const auto& section : {topology_section, interpolation_section, update_section, growth_section, file_section,
+                              picture_section, nearest_section, series_section, process_section}) {
     page += section();
     std::fprintf(stderr, "%s", page.substr(page.rfind("\n## ")).c_str());
   }

@@ -39,7 +39,7 @@ class InterpolationUpdates {
 
   /// Targets rows[i] become values.row(i), and the surface passes through all targets again: each is met to 1/16 of the
   /// tolerance of the diagonal that its component had at the last whole solve, or to rounding.
-  /// Cost: about 2 ms for one target on quads, whatever V is (docs/performance.md). Everything is solved again where
+  /// Cost: under 1 ms for one target on quads, whatever V is (docs/performance.md). Everything is solved again where
   /// the change reaches most of the mesh, and for components that are singular or refined (see OnSingular). Throws
   /// Error, and leaves everything as it was: IndexOutOfRange, BadArgument (a row twice), BadShape, NotFinite, and in a
   /// whole solve what Interpolator::solve() does.
