@@ -1,5 +1,6 @@
 #include "cli/verbs.h"
 
+#include "cli/interpolate_from.h"
 #include "cli/options.h"
 
 namespace batten::cli {
@@ -81,7 +82,22 @@ void add_interpolate(CLI::App& app, InterpolateArguments& arguments, int& status
                   "if not given, fewer for a large mesh)")
       ->check(whole_number(0, 12));
   add_fair(verb, arguments.fair);
+  add_input_file(verb, "--from", arguments.from,
+                 "a control mesh of the same faces: move only what its surface needs to pass through INPUT's points")
+      ->option_text("CONTROL");
+  verb.add_option("--local", arguments.rings,
+                  "with --from: move only control points so many rings around the points that it misses")
+      ->check(whole_number(0, 1000))
+      ->option_text("RINGS");
   set_run(verb, arguments.common, status, [&] {
+    require_with(verb, {"--local"}, {"--from"});
+    if (!arguments.from.empty()) {
+      require_alone(verb, "--from",
+                    {"--repair", "--triangulate", "--features", "--attributes", "--method", "--omega",
+                     "--max-iterations", "--on-singular", "--compare-methods", "--plot", "--levels"});
+      require_output(verb);
+      return run_interpolate_from(arguments);
+    }
     require_output(verb, {"--compare-methods"});
     require_with(verb, {"--levels"}, {"--output"});
     require_with(verb, {"--normal-tolerance", "--keep-ripples"}, {"--normals"});

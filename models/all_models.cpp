@@ -127,7 +127,13 @@ std::vector<Model> all_models() {
 std::vector<Model> morph_models() {
   Mesh ball = ball_of(creature(), 3.0);
   round_points(ball.points, kGrain);
-  return {{"creature-ball", std::move(ball)}};
+  Mesh horned = creature();
+  round_points(horned.points, kGrain);
+  Eigen::Index forehead = 0;
+  (horned.points.rowwise() - Eigen::RowVector3d(0.0, -1.7, 5.7)).rowwise().norm().minCoeff(&forehead);
+  horned.points.row(forehead) += Eigen::RowVector3d(0.0, -0.5, 0.5);
+  round_points(horned.points, kGrain);
+  return {{"creature-ball", std::move(ball)}, {"creature-horn", std::move(horned)}};
 }
 
 std::vector<Model> broken_models() {

@@ -51,7 +51,8 @@ struct Model {
 /// All models and the regular solids, with coordinates rounded so that files stay small.
 std::vector<Model> all_models();
 
-/// Other shapes of the same faces, for `batten morph`.
+/// Other shapes of the creature's faces: a ball for `batten morph`; one point of the forehead pulled out for
+/// `batten interpolate --from`.
 std::vector<Model> morph_models();
 
 /// Meshes without a surface, for `batten repair`.
