@@ -5,6 +5,7 @@
 
 #include "batten/io/io.h"
 #include "batten/limit/limit_matrix.h"
+#include "batten/refine/refinement.h"
 #include "cli/tool.h"
 
 namespace batten::cli_tests {

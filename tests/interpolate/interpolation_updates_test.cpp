@@ -146,6 +146,13 @@ TEST(InterpolationUpdates, SolveEverythingWhereMostTargetsChange) {
             1e-10 * bounding_diagonal(updates.targets()));
 }
 
+TEST(InterpolationUpdates, TakeNoChangeAtAll) {
+  const Mesh mesh = torus(8, 6);
+  InterpolationUpdates updates(Interpolator(Topology(mesh), kCatmullClark), mesh.points);
+  EXPECT_EQ(updates.update({}, Values(0, 3)).moved, 0);
+  EXPECT_EQ(updates.update_within(2, {}, Values(0, 3)).moved, 0);
+}
+
 /// Without a change, the start is as good as an update leaves it.
 TEST(InterpolationUpdates, BeginBetterThanAWholeSolve) {
   const Mesh mesh = test::jittered(torus(60, 40), 0.02, 7);

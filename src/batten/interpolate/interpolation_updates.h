@@ -10,6 +10,8 @@
 
 namespace batten {
 
+class UpdatedSurface;
+
 /// What an update did. Errors are distances of limit positions from targets, measured at the end in double.
 struct UpdateReport {
   bool is_local = true;    ///< false: everything was solved again, since the change, or its component, asked for that
@@ -63,9 +65,8 @@ class InterpolationUpdates {
   std::span<const Index> moved() const;
 
  private:
-  struct State;
-  explicit InterpolationUpdates(std::unique_ptr<State> state);
-  std::unique_ptr<State> state_;
+  explicit InterpolationUpdates(std::unique_ptr<UpdatedSurface> state);
+  std::unique_ptr<UpdatedSurface> state_;
 };
 
 }  // namespace batten

@@ -114,7 +114,8 @@ std::vector<Index> places_within(LocalRows& rows, std::span<const Index> changed
 
 LocalFit fit_locally(LocalRows& rows, std::vector<Index> places, std::size_t exact, ConstValuesRef targets,
                      ConstValuesRef control, const Progress& progress) {
-  LocalFit fit{std::move(places), {}, {}};
+  LocalFit fit{std::move(places), {}, Values(0, targets.cols())};
+  if (fit.places.empty()) return fit;
   fit.affected = affected_places(rows, fit.places);
   const LocalEquations equations = make_equations(rows, fit.places, fit.affected, exact, targets, control);
   const auto unknowns = static_cast<Eigen::Index>(fit.places.size());
