@@ -249,7 +249,7 @@ void set_run(CLI::App& verb, CommonArguments& common, int& status, const std::fu
     require_with(verb, {"--ascii", "--output-format"}, {"--output"});
     if (verb.get_option_no_throw("--picture") != nullptr)
       require_with(verb, kPictureOptions, {"--picture", "--gallery"});
-    require_with(verb, {"--range"}, {"--color", "--color-moved", "--values", "--compare", "SCAN"});
+    require_with(verb, {"--range"}, {"--color", "--color-moved", "--values", "--compare", "--from", "SCAN"});
     const CLI::Option* color = verb.get_option_no_throw("--color");
     const std::string coloring = color != nullptr && color->count() > 0 ? color->as<std::string>() : "";
     if (coloring == "zebra" || coloring == "checker") require_alone(verb, "--color " + coloring, {"--range"});

@@ -28,8 +28,8 @@ struct UpdateReport {
 /// Targets and control points that stay together. Memory: both, and 4 bytes a vertex. Not for several threads at once.
 class InterpolationUpdates {
  public:
-  /// Solves for all targets, V-by-k, once; four passes more than Interpolator::solve(), so that 1/16 of the tolerance
-  /// is reached. Throws what Interpolator::solve() does.
+  /// Solves for all targets, V-by-k, once, to 1/16 of the tolerance: about a third more work than
+  /// Interpolator::solve(). Throws what Interpolator::solve() does.
   InterpolationUpdates(const Interpolator& interpolator, ConstValuesRef targets, const Progress& progress = {});
 
   /// From control points that are there already: the targets are their limit positions. O(V k).
