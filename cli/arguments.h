@@ -106,7 +106,7 @@ struct InterpolateArguments {
   InterpolateOptions options;
   std::string plot;  ///< residual against iteration
   bool compare_methods = false;
-  int levels = -1;  ///< -1: write the control mesh, or for GLB at most 3
+  int levels = -1;           ///< -1: write the control mesh, or for GLB at most 3
   std::string from;          ///< a control mesh whose surface shall follow the points; empty: solve for all points
   std::optional<int> rings;  ///< of a moved point, where control points may move; with `from`
 };

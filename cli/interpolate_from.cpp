@@ -10,8 +10,10 @@
 #include "batten/error.h"
 #include "batten/interpolate/interpolation_updates.h"
 #include "batten/mesh/vertex_fields.h"
+#include "cli/interpolation_rows.h"
 #include "cli/job.h"
 #include "cli/picture.h"
+#include "cli/surface_output.h"
 
 namespace batten::cli {
 namespace {
@@ -92,11 +94,11 @@ Movement follow(const InterpolateArguments& arguments, const Topology& topology,
 }
 
 std::string length_text(double length, double diagonal) {
-  return fmt::format("{:.4g} ({:.3g} of the diagonal)", length, diagonal > 0.0 ? length / diagonal : 0.0);
+  return fmt::format("{:.4g} ({})", length, share_text(length, diagonal));
 }
 
 void print_table(const InterpolateArguments& arguments, const Topology& topology, const Scheme& scheme,
-                 const Movement& movement, const Job& job) {
+                 const Movement& movement, const std::string& written, const Job& job) {
   const UpdateReport& report = movement.report;
   const double farthest = movement.of_control.maxCoeff();
   Table table;
@@ -116,6 +118,7 @@ void print_table(const InterpolateArguments& arguments, const Topology& topology
               fmt::format("{}, at most {} at vertex {}", count_of(report.missed, "other point", "other points"),
                           length_text(report.max_miss, movement.diagonal), report.worst_miss));
   }
+  if (!written.empty()) table.add("written", written);
   job.print(table);
 }
 
@@ -184,9 +187,9 @@ int run_interpolate_from(const InterpolateArguments& arguments) {
   const Scheme scheme = scheme_for(common, job.mesh);
   const Mesh before = common.output.empty() ? Mesh() : job.mesh;
   const Movement movement = follow(arguments, topology, scheme, wanted, job);
-  job.write(job.mesh);
+  const std::string written = write_surface({job.mesh, topology, scheme}, arguments.levels, job);
   if (!arguments.picture.path.empty()) draw_movement(arguments, topology, scheme, wanted, movement, before, job);
-  print_table(arguments, topology, scheme, movement, job);
+  print_table(arguments, topology, scheme, movement, written, job);
   job.report(report_json(arguments, topology, scheme, movement));
   if (movement.report.outcome == Outcome::NotReached) {
     throw Error(ErrorCode::NotConverged, fmt::format("the tolerance {:g} was not reached; what was reached is written",

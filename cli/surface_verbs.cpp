@@ -91,17 +91,17 @@ void add_interpolate(CLI::App& app, InterpolateArguments& arguments, int& status
       ->option_text("RINGS");
   set_run(verb, arguments.common, status, [&] {
     require_with(verb, {"--local"}, {"--from"});
+    require_with(verb, {"--normal-tolerance", "--keep-ripples"}, {"--normals"});
+    require_with(verb, {"--levels"}, {"--output"});
+    require_with(verb, {"--fair-levels", "--energy", "--smoothing"}, {"--fair"});
     if (!arguments.from.empty()) {
       require_alone(verb, "--from",
                     {"--repair", "--triangulate", "--features", "--attributes", "--method", "--omega",
-                     "--max-iterations", "--on-singular", "--compare-methods", "--plot", "--levels"});
+                     "--max-iterations", "--on-singular", "--compare-methods", "--plot", "--normals", "--fair"});
       require_output(verb);
       return run_interpolate_from(arguments);
     }
     require_output(verb, {"--compare-methods"});
-    require_with(verb, {"--levels"}, {"--output"});
-    require_with(verb, {"--normal-tolerance", "--keep-ripples"}, {"--normals"});
-    require_with(verb, {"--fair-levels", "--energy", "--smoothing"}, {"--fair"});
     if (arguments.fair.fair) {
       require_alone(verb, "--fair",
                     {"--method", "--tolerance", "--omega", "--max-iterations", "--on-singular", "--limit-masks",

@@ -1,6 +1,7 @@
 /// Every operation that may take long reports its progress and can be cancelled.
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <thread>
 
 #include "batten/adaptive/adaptive.h"
@@ -14,6 +15,7 @@
 #include "batten/expand/texture.h"
 #include "batten/interpolate/fair_interpolation.h"
 #include "batten/interpolate/interpolated_mesh.h"
+#include "batten/interpolate/interpolation_updates.h"
 #include "batten/interpolate/local_normals.h"
 #include "batten/interpolate/method_comparison.h"
 #include "batten/limit/limit_matrix.h"
@@ -168,6 +170,21 @@ std::vector<Named> operations(const io_tests::TemporaryFolder& folder) {
          tessellate_adaptively(topology, scheme, mesh.points, options, progress);
        }},
       {"solve", [](const Progress& progress) { interpolator.solve(mesh.points, progress); }},
+      {"interpolation updates",
+       [](const Progress& progress) { InterpolationUpdates(interpolator, mesh.points, progress); }},
+      {"an update of everything",
+       [](const Progress& progress) {
+         InterpolationUpdates updates(interpolator, mesh.points);
+         std::vector<Index> rows(static_cast<std::size_t>(mesh.vertex_count()));
+         std::iota(rows.begin(), rows.end(), 0);
+         updates.update(rows, 2.0 * mesh.points, progress);
+       }},
+      {"an update within rings",
+       [](const Progress& progress) {
+         InterpolationUpdates updates = InterpolationUpdates::from_control(interpolator, mesh.points);
+         const Index vertex = 0;
+         updates.update_within(20, {&vertex, 1}, 2.0 * mesh.points.row(vertex), progress);
+       }},
       {"interpolate", [](const Progress& progress) { interpolate(mesh, {}, progress); }},
       {"interpolate fairly",
        [](const Progress& progress) { interpolate_fairly(topology, scheme, mesh.points, {}, progress); }},

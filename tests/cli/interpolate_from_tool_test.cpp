@@ -69,6 +69,15 @@ TEST_F(Tool, FromKeepsWhatElseTheControlMeshHolds) {
   EXPECT_EQ(read_mesh(path("moved.obj")).creases.size(), read_mesh(path("control.obj")).creases.size());
 }
 
+TEST_F(Tool, FromWritesTheSurfaceWhereItIsAskedFor) {
+  ASSERT_EQ(run("interpolate " + kModels + "creature.obj -o control.obj").status, 0);
+  const Outcome result = run("interpolate " + kHorn + " --from control.obj --levels 1 -o surface.obj");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Mesh surface = read_mesh(path("surface.obj"));
+  EXPECT_EQ(surface.face_count(), 2400);
+  EXPECT_LE((surface.points.topRows(602) - read_mesh(kHorn).points).rowwise().norm().maxCoeff(), 1e-8);
+}
+
 TEST_F(Tool, FromRefusesAnotherModel) {
   ASSERT_EQ(run("interpolate " + kModels + "creature.obj -o control.obj").status, 0);
   const Outcome other = run("interpolate " + kModels + "tripod.obj --from control.obj -o x.obj");
