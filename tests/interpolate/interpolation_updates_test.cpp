@@ -15,7 +15,6 @@ namespace batten {
 namespace {
 
 using test::kCatmullClark;
-using test::kLoop;
 
 /// Elimination: control points exact to rounding.
 Values exact_control(const Topology& topology, const Scheme& scheme, const Values& targets) {
@@ -65,8 +64,8 @@ Mesh creased_torus() {
 TEST(InterpolationUpdates, EqualAWholeSolveOnClosedMeshes) {
   expect_whole_solve(test::jittered(torus(30, 20), 0.02, 7), kCatmullClark, "torus");
   expect_whole_solve(test::random_hull(300, 2), kCatmullClark, "hull");
-  expect_whole_solve(test::random_hull(300, 2), kLoop, "hull under Loop");
-  expect_whole_solve(test::triangle_torus(20, 14), kLoop, "triangle torus under Loop");
+  expect_whole_solve(test::random_hull(300, 2), test::kLoop, "hull under Loop");
+  expect_whole_solve(test::triangle_torus(20, 14), test::kLoop, "triangle torus under Loop");
   expect_whole_solve(dodecahedron(), kCatmullClark, "dodecahedron");
 }
 
@@ -81,7 +80,7 @@ TEST(InterpolationUpdates, EqualAWholeSolveOnOpenMeshes) {
 TEST(InterpolationUpdates, EqualAWholeSolveAcrossCreasesCornersAndDarts) {
   expect_whole_solve(creased_torus(), kCatmullClark, "creased torus");
   expect_whole_solve(test::with_random_tags(test::jittered(torus(12, 9), 0.02, 7), 5), kCatmullClark, "random tags");
-  expect_whole_solve(test::with_random_tags(test::triangle_torus(12, 9), 5), kLoop, "random tags under Loop");
+  expect_whole_solve(test::with_random_tags(test::triangle_torus(12, 9), 5), test::kLoop, "random tags under Loop");
 }
 
 TEST(InterpolationUpdates, AThousandMovesLeaveNoDrift) {
