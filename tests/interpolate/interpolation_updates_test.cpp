@@ -145,6 +145,36 @@ TEST(InterpolationUpdates, SolveEverythingWhereMostTargetsChange) {
             1e-10 * bounding_diagonal(updates.targets()));
 }
 
+/// A vertex in each face and a face around each vertex: of triangles, all valences are 3.
+Mesh dual(const Mesh& mesh) {
+  const Topology topology(mesh);
+  test::Faces faces;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    faces.emplace_back();
+    topology.for_each_outgoing(v, [&](Index h) { faces.back().push_back(topology.face(h)); });
+  }
+  Mesh result = test::mesh_of_faces(mesh.face_count(), faces);
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    result.points.row(f).setZero();
+    for (Index i = 3 * f; i < 3 * f + 3; ++i) result.points.row(f) += mesh.points.row(mesh.face_vertices[i]) / 3.0;
+  }
+  return result;
+}
+
+/// Nearly singular: the influence of a target reaches far, and relaxation is slow.
+TEST(InterpolationUpdates, SolveEverythingWhereTheInfluenceReachesFar) {
+  const Mesh mesh = dual(test::random_hull(2500, 3));
+  const Topology topology(mesh);
+  const Interpolator interpolator(topology, kCatmullClark);
+  InterpolationUpdates updates(interpolator, mesh.points);
+  const Index v = 1000;
+  const UpdateReport report = updates.update({&v, 1}, 1.01 * mesh.points.row(v));
+  EXPECT_FALSE(report.is_local);
+  EXPECT_GT(report.steps, 0);  // tried
+  const Values surface = interpolator.limit_matrix().apply(updates.control());
+  EXPECT_LE(largest_difference(surface, updates.targets()), 1e-10 * bounding_diagonal(mesh.points));
+}
+
 TEST(InterpolationUpdates, TakeNoChangeAtAll) {
   const Mesh mesh = torus(8, 6);
   InterpolationUpdates updates(Interpolator(Topology(mesh), kCatmullClark), mesh.points);
