@@ -2,7 +2,7 @@
 ///
 /// Gauss-Seidel from row to row: a row whose equation is off by more than the tolerance is relaxed, and then the rows
 /// that its control point is part of are looked at. So the work spreads as far as the change matters and no farther
-/// (docs/decisions/010-local-updates.md). Rows of every kind are relaxed alike; curves, which no surface row acts upon,
+/// (docs/decisions/012-local-updates.md). Rows of every kind are relaxed alike; curves, which no surface row acts upon,
 /// settle first by themselves.
 #pragma once
 #include "batten/interpolate/local_rows.h"
