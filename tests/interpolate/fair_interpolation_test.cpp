@@ -11,6 +11,8 @@
 #include "batten/interpolate/fair_mesh.h"
 #include "batten/interpolate/fair_system.h"
 #include "batten/interpolate/interpolator.h"
+#include "batten/interpolate/local_normals.h"
+#include "batten/interpolate/wanted_normals.h"
 #include "batten/limit/limit_matrix.h"
 #include "batten/limit/vertex_limit.h"
 #include "batten/mesh/primitives.h"
@@ -114,8 +116,7 @@ TEST(FairInterpolation, IsTheSolutionOfTheDenseSystem) {
 
     const FairSystem fair(limit, mesh.vertex_count(), Scalars());
     Values unknowns = fair.unknowns(fine.values);
-    const SolveReport report =
-        fair.minimise(energy, mesh.points, FairNormals(), {.tolerance = 1e-12, .max_iterations = 1000}, unknowns);
+    const SolveReport report = fair.minimise(energy, mesh.points, FairNormals(), {1e-12, 1000, {}}, unknowns);
     EXPECT_TRUE(report.converged);
     EXPECT_LT((fair.control(unknowns, mesh.points) - expected).cwiseAbs().maxCoeff(), 1e-7);
   }
@@ -161,8 +162,7 @@ TEST(FairInterpolation, IsTheSolutionOfTheDenseSystemWithNormals) {
   Values unknowns = fair.unknowns(fine.values);
   const FairNormals normals(limit, wanted, fair.to_control(),
                             fair.control(Values::Zero(unknowns.rows(), 3), mesh.points));
-  EXPECT_TRUE(
-      fair.minimise(energy, mesh.points, normals, {.tolerance = 1e-12, .max_iterations = 2000}, unknowns).converged);
+  EXPECT_TRUE(fair.minimise(energy, mesh.points, normals, {1e-12, 2000, {}}, unknowns).converged);
   const Values found = fair.control(unknowns, mesh.points);
   EXPECT_LT((Eigen::Map<const Eigen::VectorXd>(found.data(), found.size()) - expected).cwiseAbs().maxCoeff(), 1e-7);
 }
@@ -270,6 +270,26 @@ TEST(FairInterpolation, HasTheNormalsWanted) {
 }
 
 /// A wave of eight faces along a strip, far from its ends. Bending lets the strip's free sides follow.
+TEST(FairInterpolation, NeverHasMoreEnergyThanTheSurfaceWhoseNormalsAreTurned) {
+  for (const test::NamedMesh& sample : fair_samples()) {
+    const Topology topology(sample.mesh);
+    const Scheme scheme = scheme_for(sample.mesh);
+    FairOptions options;
+    options.normals = estimated_wanted_normals(topology, sample.mesh.points);
+    const FairInterpolant fair = interpolate_fairly(topology, scheme, sample.mesh.points, options);
+    InterpolateOptions plain;
+    plain.on_singular = OnSingular::Refuse;
+    try {
+      const Interpolant solved = Interpolator(topology, scheme, plain).solve(sample.mesh.points);
+      const TurnedSurface turned = turn_normals(solved.topology, solved.scheme, solved.control, options.normals);
+      const ShapeEnergy energy(SurfacePatches(fair.topology, fair.scheme), options.energy);
+      EXPECT_LE(energy.energy(fair.control), energy.energy(turned.control)) << sample.name;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::SingularSystem) << sample.name;
+    }
+  }
+}
+
 TEST(FairInterpolation, SmoothingHalvesWavesOfItsLength) {
   constexpr Index kWave = 8;
   constexpr Index kFaces = 5 * kWave;
