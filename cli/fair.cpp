@@ -11,6 +11,7 @@
 #include "batten/interpolate/fair_mesh.h"
 #include "batten/tessellate/surface_mesh.h"
 #include "cli/attributes.h"
+#include "cli/interpolation_rows.h"
 #include "cli/job.h"
 #include "cli/normals.h"
 #include "cli/picture.h"
@@ -53,6 +54,7 @@ void print_table(const Topology& topology, const Scheme& scheme, const FairOptio
   table.add("max error", fmt::format("{:.3g} at vertex {} ({:.3g} of the diagonal)", report.max_error,
                                      report.worst_vertex, report.max_error / report.diagonal));
   table.add("rms error", fmt::format("{:.3g}", report.rms_error));
+  add_value_rows(result.attributes, table);
   if (report.normal_count > 0) {
     table.add("normals", fmt::format("{} wanted, reached to {:.3g} degrees", grouped(report.normal_count),
                                      report.max_angle * 180.0 / std::numbers::pi));
@@ -88,6 +90,7 @@ nlohmann::ordered_json report_json(const Topology& topology, const Scheme& schem
             {"kept_plain", report.kept_plain},
             {"normals", report.normal_count},
             {"max_angle", report.max_angle * 180.0 / std::numbers::pi}}},
+          {"attributes", named_values_json(result.attributes)},
           {"written_vertices", result.mesh.vertex_count()},
           {"written_faces", result.mesh.face_count()},
           {"peak_memory_bytes", peak_memory_bytes()}};
@@ -165,6 +168,7 @@ int run_fair(const InterpolateArguments& arguments) {
   }
   print_table(topology, scheme, options, result, written, job);
   job.report(report_json(topology, scheme, options, result));
+  require_reached(result.attributes, InterpolateOptions().tolerance);
   if (result.report.solve.converged) return 0;
   throw Error(ErrorCode::NotConverged,
               fmt::format("the surface passes through its points, but is not the fairest yet after {} iterations",

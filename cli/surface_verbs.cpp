@@ -45,18 +45,7 @@ void add_fair(CLI::App& verb, FairArguments& fair) {
   add_length(verb, "--smoothing", fair.smoothing, "let the surface leave the points: bumps shorter than this vanish");
 }
 
-}  // namespace
-
-void add_interpolate(CLI::App& app, InterpolateArguments& arguments, int& status) {
-  CLI::App& verb =
-      *app.add_subcommand("interpolate", "the control mesh whose limit surface passes through the vertices");
-  add_input(verb, arguments.common);
-  add_output(verb, arguments.common);
-  add_surface(verb, arguments.common);
-  add_attributes(verb, arguments.common, "interpolated");
-  add_picture(verb, arguments.picture);
-  add_coloring(verb, arguments.picture);
-  InterpolateOptions& options = arguments.options;
+void add_solver(CLI::App& verb, InterpolateOptions& options) {
   add_choice(verb, "--method", options.method, kMethods, "how to solve; jacobi is Thall's, richardson Lai and Cheng's");
   verb.add_option("--tolerance", options.tolerance, "largest miss, of the bounding box's diagonal")
       ->check(positive_number())
@@ -68,12 +57,40 @@ void add_interpolate(CLI::App& app, InterpolateArguments& arguments, int& status
   add_choice(verb, "--on-singular", options.on_singular, kOnSingular,
              "where no surface passes through such points; alpha if not given");
   add_choice(verb, "--limit-masks", options.masks, kMasks, "exact at darts and valence 2, or OpenSubdiv's masks there");
-  add_input_file(verb, "--normals", arguments.normals.source,
+}
+
+void add_normals(CLI::App& verb, NormalArguments& normals) {
+  add_input_file(verb, "--normals", normals.source,
                  "refine twice and turn the surface's normals to the mesh's own, to estimates, or to those of a file")
       ->option_text("mesh|estimate|FILE");
-  add_normal_tolerance(verb, arguments.normals.tolerance);
-  verb.add_flag("!--keep-ripples", arguments.normals.relax,
+  add_normal_tolerance(verb, normals.tolerance);
+  verb.add_flag("!--keep-ripples", normals.relax,
                 "turn normals and no more: in a fraction of the time and the memory, with stronger ripples");
+}
+
+void add_local(CLI::App& verb, InterpolateArguments& arguments) {
+  add_input_file(verb, "--from", arguments.from,
+                 "a control mesh of the same faces: move only what its surface needs to pass through INPUT's points")
+      ->option_text("CONTROL");
+  verb.add_option("--local", arguments.rings,
+                  "with --from: move only control points so many rings around the points that it misses")
+      ->check(whole_number(0, 1000))
+      ->option_text("RINGS");
+}
+
+}  // namespace
+
+void add_interpolate(CLI::App& app, InterpolateArguments& arguments, int& status) {
+  CLI::App& verb =
+      *app.add_subcommand("interpolate", "the control mesh whose limit surface passes through the vertices");
+  add_input(verb, arguments.common);
+  add_output(verb, arguments.common);
+  add_surface(verb, arguments.common);
+  add_attributes(verb, arguments.common, "interpolated");
+  add_picture(verb, arguments.picture);
+  add_coloring(verb, arguments.picture);
+  add_solver(verb, arguments.options);
+  add_normals(verb, arguments.normals);
   verb.add_flag("--compare-methods", arguments.compare_methods,
                 "solve by the papers' iterations and a direct solver too, and print (and plot) how they did");
   add_output_file(verb, "--plot", arguments.plot, "plot the residual against the iteration", {".png", ".svg"});
@@ -82,13 +99,7 @@ void add_interpolate(CLI::App& app, InterpolateArguments& arguments, int& status
                   "if not given, fewer for a large mesh)")
       ->check(whole_number(0, 12));
   add_fair(verb, arguments.fair);
-  add_input_file(verb, "--from", arguments.from,
-                 "a control mesh of the same faces: move only what its surface needs to pass through INPUT's points")
-      ->option_text("CONTROL");
-  verb.add_option("--local", arguments.rings,
-                  "with --from: move only control points so many rings around the points that it misses")
-      ->check(whole_number(0, 1000))
-      ->option_text("RINGS");
+  add_local(verb, arguments);
   set_run(verb, arguments.common, status, [&] {
     require_with(verb, {"--local"}, {"--from"});
     require_with(verb, {"--normal-tolerance", "--keep-ripples"}, {"--normals"});

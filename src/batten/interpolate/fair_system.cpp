@@ -5,34 +5,16 @@
 #include <cmath>
 #include <utility>
 
-#include "batten/parallel/parallel.h"
 #include "batten/refine/sparse_rows.h"
 #include "batten/solve/incomplete_factor.h"
 #include "batten/solve/krylov.h"
+#include "batten/solve/sparse_product.h"
 
 namespace batten {
 
 namespace {
 
 using Matrix = FairSystem::Matrix;
-
-/// matrix * values, row by row in parallel.
-void multiply(const Matrix& matrix, const Values& values, Values& result) {
-  constexpr std::ptrdiff_t kRowBlock = 512;
-  result.resize(matrix.rows(), values.cols());
-  parallel_for(
-      matrix.rows(),
-      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-        for (std::ptrdiff_t r = begin; r < end; ++r) {
-          Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-          for (int e = matrix.outerIndexPtr()[r]; e < matrix.outerIndexPtr()[r + 1]; ++e) {
-            sum += matrix.valuePtr()[e] * values.row(matrix.innerIndexPtr()[e]).head<3>();
-          }
-          result.row(r) = sum;
-        }
-      },
-      kRowBlock);
-}
 
 /// Where conjugate gradients need more iterations, as with long smoothing, the whole Cholesky factor takes less time
 /// than they do, for some 10,000 unknowns far less; for more than so many its time and memory grow too fast.

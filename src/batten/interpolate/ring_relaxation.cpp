@@ -4,6 +4,7 @@
 
 #include "batten/parallel/parallel.h"
 #include "batten/solve/krylov.h"
+#include "batten/solve/sparse_product.h"
 
 namespace batten {
 
@@ -33,22 +34,6 @@ Points orthonormal_masks(const FrameMasks& masks, Eigen::Index count) {
     columns.col(i).normalize();
   }
   return columns;
-}
-
-/// result = K values.
-void multiply(const SurfaceEnergy::Matrix& matrix, const Values& values, Values& result) {
-  result.resize(values.rows(), 3);
-  parallel_for(
-      values.rows(),
-      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-        for (std::ptrdiff_t v = begin; v < end; ++v) {
-          Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-          for (SurfaceEnergy::Matrix::InnerIterator entry(matrix, v); entry; ++entry)
-            sum += entry.value() * values.row(entry.col());
-          result.row(v) = sum;
-        }
-      },
-      kRowBlock);
 }
 
 }  // namespace
