@@ -227,7 +227,7 @@ int run_medial(const MedialArguments& arguments) {
   add_error_rows(run, table);
   if (run.turned) {
     table.add("before", fmt::format("at most {:.3g} degrees between spoke and normal before they turned (mean {:.3g})",
-                              kDegrees * run.turned->before_angle.max, kDegrees * run.turned->before_angle.mean));
+                                    kDegrees * run.turned->before_angle.max, kDegrees * run.turned->before_angle.mean));
     add_normal_rows(*run.turned, table);
   }
   const InterpolatedMesh& surface = made.surface;
