@@ -185,7 +185,7 @@ int run_interpolate_from(const InterpolateArguments& arguments) {
   job.mesh = std::move(control);
   const Topology topology = job.connect();
   const Scheme scheme = scheme_for(common, job.mesh);
-  const Mesh before = common.output.empty() ? Mesh() : job.mesh;
+  const Mesh before = arguments.picture.path.empty() ? Mesh() : job.mesh;
   const Movement movement = follow(arguments, topology, scheme, wanted, job);
   const std::string written = write_surface({job.mesh, topology, scheme}, arguments.levels, job);
   if (!arguments.picture.path.empty()) draw_movement(arguments, topology, scheme, wanted, movement, before, job);

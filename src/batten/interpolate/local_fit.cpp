@@ -1,6 +1,7 @@
 #include "batten/interpolate/local_fit.h"
 
 #include <Eigen/SparseLU>
+#include <utility>
 
 #include "batten/error.h"
 #include "batten/interpolate/local_relaxation.h"
