@@ -41,14 +41,18 @@ struct MotionOptions {
 struct StepReport {
   int rounds = 0;             ///< solves
   int solver_iterations = 0;  ///< of conjugate gradients, in all of them
-  double change = 0.0;        ///< the farthest that a control point moved in the last round, in the unit of the points
-  bool settled = false;       ///< that is within the tolerance
+  double change = 0.0;         ///< the farthest that a control point moved in the last round, in the unit of the points
+  bool settled = false;        ///< that is within the tolerance
+  double support_error = 0.0;  ///< how far the supports are from where they are held, in the unit of the points
+  double time_error = 0.0;     ///< of advance(): the estimated error of its last step, in the unit of the points
+};
+
+/// How a body stands at a time.
+struct MotionMeasure {
   double kinetic_energy = 0.0;
   double elastic_energy = 0.0;
   double force_energy = 0.0;    ///< of the forces that have one
   double residual_force = 0.0;  ///< the greatest of the forces on control points that nothing balances
-  double support_error = 0.0;   ///< how far the supports are from where they are held
-  double time_error = 0.0;      ///< estimate of the step's own error in positions, in their unit
 };
 
 /// What an equilibrium is taken for.
@@ -60,9 +64,7 @@ struct EquilibriumReport {
   int rounds = 0;
   int solver_iterations = 0;
   double change = 0.0;
-  double residual_force = 0.0;
-  double elastic_energy = 0.0;
-  double force_energy = 0.0;
+  double residual_force = 0.0;  ///< the greatest of the forces on control points that nothing balances
   bool converged = false;
 };
 
@@ -86,9 +88,12 @@ class ElasticMotion {
   /// motion has run away, Error(Cancelled); then the state is the one before.
   StepReport step(ElasticState& state, const Progress& progress = {});
 
+  /// Measures energies and what is left of the forces. Throws as step().
+  MotionMeasure measure(const ElasticState& state) const;
+
   /// Moves on by `seconds` in steps of its own choice, so that the error of each is about `tolerance` of the diagonal;
-  /// steps are halvings of options().step. Returns the last step's report. Throws as step(); then the state is that
-  /// after the last whole step.
+  /// estimated from a step of twice the length; steps are halvings of options().step. Returns the last step's report.
+  /// Throws as step(); then the state is that after the last whole step.
   StepReport advance(ElasticState& state, double seconds, double tolerance = 1e-4, const Progress& progress = {});
 
   /// The static solution: positions at which all forces balance at state.time, from those of the state on; velocities
@@ -96,8 +101,9 @@ class ElasticMotion {
   EquilibriumReport find_equilibrium(ElasticState& state, const EquilibriumOptions& options = {},
                                      const Progress& progress = {});
 
-  /// The motion of the body on its control mesh refined once; refine the state with refined_state().
-  ElasticMotion refined(const Progress& progress = {}) const;
+  /// The motion of the body on its control mesh refined once, for the body as `state` has it; refined_state() refines
+  /// the state itself.
+  ElasticMotion refined(const ElasticState& state, const Progress& progress = {}) const;
 
  private:
   struct Parts;

@@ -28,6 +28,9 @@ struct PlaceRows {
 /// that do not exist.
 PlaceRows place_rows(const SurfacePatches& patches, std::span<const SurfacePlace> places);
 
+/// The same place on `body.refined()`.
+SurfacePlace place_on_refined(const SurfacePatches& patches, const SurfacePlace& place);
+
 /// How a step asks for forces. All matrices are V-by-3.
 struct ForceInput {
   double time = 0.0;         ///< at the end of the step

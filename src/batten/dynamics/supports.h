@@ -45,8 +45,9 @@ struct Supports {
 /// Holds the control points of all boundary vertices where they are at rest.
 Supports hold_boundary(const ElasticSurface& surface);
 
-/// The same supports on body.refined(). A fixed control point becomes a pin of its vertex's limit position... only
-/// pins stay exact: throws Error(BadArgument) for fixed points that move.
-Supports refined_supports(const ElasticSurface& body, const Supports& supports);
+/// The same supports on body.refined(), for the body as `state` has it. Control points of the refined mesh that depend
+/// on fixed ones alone are fixed where these lead them. Where a fixed point leads none, the place of its vertex on the
+/// surface is pinned instead: it stays where it is now, or moves along as the point did.
+Supports refined_supports(const ElasticSurface& body, const Supports& supports, const ElasticState& state);
 
 }  // namespace batten

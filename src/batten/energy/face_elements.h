@@ -53,6 +53,9 @@ class FaceElements {
   std::span<const Index> vertices(Index element) const {
     return std::span<const Index>(vertices_).subspan(starts_[element], starts_[element + 1] - starts_[element]);
   }
+  /// Those of all elements, one after the other, and where an element's begin.
+  std::span<const Index> vertices() const { return vertices_; }
+  std::size_t start(Index element) const { return starts_[element]; }
   /// Elements in ascending order.
   std::span<const Use> uses(Index vertex) const {
     return std::span<const Use>(uses_).subspan(first_uses_[vertex], first_uses_[vertex + 1] - first_uses_[vertex]);

@@ -98,6 +98,20 @@ double shape_energy_of(ShapeEnergyKind kind, const ShapeTable& table, std::span<
   return sum;
 }
 
+void shape_gradient(ShapeEnergyKind kind, const ShapeTable& table, std::span<const Index> vertices,
+                    ConstValuesRef reference, ShapeScratch& scratch, double* gradient) {
+  gather(vertices, reference, scratch);
+  Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>> sum(
+      gradient, static_cast<Eigen::Index>(vertices.size()), 3);
+  with_sizes(kind, table, [&]<int N, int J>() {
+    visit_places<N, J>(kind, table, scratch, [&](double weight, const auto& jets, const auto& by_jet) {
+      const auto values = by_jet.lazyProduct(scratch.jet.template topRows<J>()).eval();
+      const auto by_derivatives = (weight * by_jet.transpose().lazyProduct(values)).eval();
+      sum += jets.transpose().lazyProduct(by_derivatives);
+    });
+  });
+}
+
 void ElementOrder::sort(std::span<const Index> vertices) {
   order_.resize(vertices.size());
   std::iota(order_.begin(), order_.end(), 0);

@@ -25,6 +25,10 @@ void shape_matrix(ShapeEnergyKind kind, const ShapeTable& table, std::span<const
 double shape_energy_of(ShapeEnergyKind kind, const ShapeTable& table, std::span<const Index> vertices,
                        ConstValuesRef control, ShapeScratch& scratch);
 
+/// Adds the matrix times the reference itself to `gradient`, three numbers a vertex, without the matrix.
+void shape_gradient(ShapeEnergyKind kind, const ShapeTable& table, std::span<const Index> vertices,
+                    ConstValuesRef reference, ShapeScratch& scratch, double* gradient);
+
 /// The vertices of an element in ascending order, to walk along a row's columns.
 class ElementOrder {
  public:
