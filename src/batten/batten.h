@@ -2,6 +2,11 @@
 #pragma once
 #include "batten/adaptive/adaptive.h"
 #include "batten/adaptive/adaptive_surface_mesh.h"
+#include "batten/dynamics/elastic_material.h"
+#include "batten/dynamics/elastic_motion.h"
+#include "batten/dynamics/elastic_surface.h"
+#include "batten/dynamics/force.h"
+#include "batten/dynamics/supports.h"
 #include "batten/energy/energy_kind.h"
 #include "batten/energy/shape_energy.h"
 #include "batten/energy/shape_energy_kind.h"

@@ -39,8 +39,8 @@ struct MotionOptions {
 
 /// What a step has done.
 struct StepReport {
-  int rounds = 0;             ///< solves
-  int solver_iterations = 0;  ///< of conjugate gradients, in all of them
+  int rounds = 0;              ///< solves
+  int solver_iterations = 0;   ///< of conjugate gradients, in all of them
   double change = 0.0;         ///< the farthest that a control point moved in the last round, in the unit of the points
   bool settled = false;        ///< that is within the tolerance
   double support_error = 0.0;  ///< how far the supports are from where they are held, in the unit of the points
@@ -97,7 +97,7 @@ class ElasticMotion {
   StepReport advance(ElasticState& state, double seconds, double tolerance = 1e-4, const Progress& progress = {});
 
   /// The static solution: positions at which all forces balance at state.time, from those of the state on; velocities
-  /// become 0. Throws Error(SingularSystem) where nothing holds the body, Error(NotFinite, Cancelled).
+  /// become 0. Throws Error(SingularSystem) where nothing holds a body without mass, Error(NotFinite, Cancelled).
   EquilibriumReport find_equilibrium(ElasticState& state, const EquilibriumOptions& options = {},
                                      const Progress& progress = {});
 

@@ -295,8 +295,8 @@ ElasticSurface ElasticSurface::refined(const Progress& progress) const {
   ElasticOptions child = options();
   // The parameters of a child's face run twice as fast, but where they were the child's own already.
   const bool halved = child.measure == ElasticMeasure::Parameters && !patches().has_first_step();
-  for (Coefficients* coefficients : {&child.material.density, &child.material.damping, &child.material.tension,
-                                     &child.material.rigidity}) {
+  for (Coefficients* coefficients :
+       {&child.material.density, &child.material.damping, &child.material.tension, &child.material.rigidity}) {
     *coefficients = of_children(*coefficients, topology(), step.child(), patches().quads());
   }
   if (halved) {

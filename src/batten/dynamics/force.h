@@ -1,7 +1,7 @@
 /// \file What acts on an elastic surface: the interface that all forces share.
 ///
-/// A force on the surface is a force on the control points: f acting on a place whose row of weights is J acts as J^T f.
-/// Springs from places to targets are taken implicitly: their stiffness J^T k J becomes part of a step's system, so
+/// A force on the surface is a force on the control points: f acting on a place whose row of weights is J acts as J^T
+/// f. Springs from places to targets are taken implicitly: their stiffness J^T k J becomes part of a step's system, so
 /// that steps stay stable however stiff they are. Other forces are taken at the end of the step, as far as its position
 /// is known: a step asks for them again after each solve, until the position stands still.
 #pragma once

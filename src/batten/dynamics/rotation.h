@@ -4,8 +4,8 @@
 
 namespace batten {
 
-/// The rotation R (determinant 1) that makes trace(R^T A) greatest, for any A. With A = sum of w p r^T over points p and
-/// their places r at rest, the weighted squared distances of the p from the R r are least.
+/// The rotation R (determinant 1) that makes trace(R^T A) greatest, for any A. With A = sum of w p r^T over points p
+/// and their places r at rest, the weighted squared distances of the p from the R r are least.
 struct BestRotation {
   Eigen::Matrix3d matrix;
   double trace;  ///< trace(R^T A)

@@ -73,8 +73,9 @@ Eigen::Matrix2d parameter_change(const SurfacePatches& patches, const SurfacePla
       break;
     }
     if (step == 0.0) {
-      throw Error(ErrorCode::BadArgument, "a derivative is pinned between four faces of the refined surface, where it "
-                                          "has none; pin it inside a face");
+      throw Error(ErrorCode::BadArgument,
+                  "a derivative is pinned between four faces of the refined surface, where it "
+                  "has none; pin it inside a face");
     }
     change(0, i) = std::round((moved.u - at.u) / step);
     change(1, i) = std::round((moved.v - at.v) / step);

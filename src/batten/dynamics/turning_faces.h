@@ -1,8 +1,8 @@
 /// \file The rest shape of an elastic surface, face by face, as it turns with the faces.
 ///
 /// With the matrix K_f of a face, its points p at rest r (n-by-3 each), the energy 1/2 |p - r R^T|^2 in K_f is least
-/// for the rotation R that makes trace(R^T A) greatest, A = p^T K_f r. The face then adds K_f r R^T to the force. So the
-/// gradients g = K_f r are all that is needed of K_f: A = p^T g, and the force g R^T.
+/// for the rotation R that makes trace(R^T A) greatest, A = p^T K_f r. The face then adds K_f r R^T to the force. So
+/// the gradients g = K_f r are all that is needed of K_f: A = p^T g, and the force g R^T.
 #pragma once
 #include <Eigen/Core>
 
@@ -18,8 +18,8 @@ class TurningFaces {
  public:
   TurningFaces() = default;
 
-  /// Adds elements with gradients g (element_gradients()), by vertices of the base; rest: the base's points. Elements of
-  /// the same number turn together.
+  /// Adds elements with gradients g (element_gradients()), by vertices of the base; rest: the base's points. Elements
+  /// of the same number turn together.
   void add(const FaceElements& elements, const Buffer<double>& gradients, const Points& rest);
   /// After the last.
   void finish(Index vertex_count);

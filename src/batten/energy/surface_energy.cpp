@@ -293,10 +293,9 @@ Buffer<double> SurfaceEnergy::element_gradients(EnergyKind kind, const Points& b
       elements.count(),
       [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
         for (auto e = static_cast<Index>(begin); e < static_cast<Index>(end); ++e) {
-          double* to = gradients.data() + 3 * elements.start(e);
-          for (Index place = 0; place < static_cast<Index>(elements.vertices(e).size()); ++place, to += 3) {
-            Eigen::Map<Eigen::RowVector3d>(to) = parts_->gradient(kind, {e, place}, base_points);
-          }
+          const auto size = static_cast<Index>(elements.vertices(e).size());
+          Eigen::Map<Points> to(gradients.data() + 3 * elements.start(e), size, 3);
+          for (Index place = 0; place < size; ++place) to.row(place) = parts_->gradient(kind, {e, place}, base_points);
         }
       },
       kVertexBlock);
