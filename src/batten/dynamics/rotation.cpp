@@ -81,7 +81,7 @@ BestRotation best_rotation(const Eigen::Matrix3d& a) {
   const double eigenvalue = greatest_eigenvalue(scaled, n);
   const Eigen::Vector4d q = null_vector(n - eigenvalue * Eigen::Matrix4d::Identity());
   // The adjugate is the product of the three other gaps: too small where two eigenvalues are close.
-  constexpr double kSmallGap = 1e-7;
+  constexpr double kSmallGap = 1e-3;
   Eigen::Matrix3d rotation;
   if (q.norm() > kSmallGap) {
     rotation = rotation_of(q);
