@@ -45,12 +45,13 @@ struct PlaceSprings {
   std::shared_ptr<const PlaceRows> rows;
   Scalars stiffness;  ///< k of each place, N/m, 0 or more
   Points targets;     ///< P-by-3
+  /// True where rows and stiffness are the same in every call with the same step: a step factors them once, together
+  /// with the body.
+  bool lasting = false;
   /// Empty, or P-by-3: a spring with a unit vector n pulls along it alone, with the force k n n^T (target - point); one
   /// with 0 in all directions. Targets are such that a spring that pulls in all directions gives the same force at
   /// ForceInput::positions: a solver that does not know of directions finds the same solution, in more rounds.
   Points directions = {};
-  /// True where rows and stiffness are the same in every call: a step factors them once, together with the body.
-  bool lasting = false;
 };
 
 /// Where forces add up.

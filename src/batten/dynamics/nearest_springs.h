@@ -5,6 +5,7 @@
 
 #include "batten/dynamics/force.h"
 #include "batten/nearest/nearest_point.h"
+#include "batten/surface/quadrature.h"
 
 namespace batten {
 

@@ -1,6 +1,7 @@
 #include "batten/dynamics/spread_places.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "batten/parallel/parallel.h"
@@ -16,11 +17,14 @@ SpreadPlaces::SpreadPlaces(const ElasticSurface& body, double radius, const Quad
       centers_(samples_.elements().count(), 3),
       radii_(samples_.elements().count()) {
   for (Index e = 0; e < samples_.elements().count(); ++e) {
-    const std::ptrdiff_t count = samples_.end(e) - samples_.begin(e);
-    const auto points = Points::Map(jets_.data(), jets_.rows(), 3)(
-        Eigen::seqN(3 * samples_.begin(e), count, Eigen::fix<3>), Eigen::all);
-    centers_.row(e) = points.colwise().mean();
-    radii_[e] = std::sqrt((points.rowwise() - centers_.row(e)).rowwise().squaredNorm().maxCoeff());
+    Eigen::RowVector3d center = Eigen::RowVector3d::Zero();
+    for (std::ptrdiff_t i = samples_.begin(e); i < samples_.end(e); ++i) center += jets_.row(3 * i);
+    centers_.row(e) = center / static_cast<double>(samples_.end(e) - samples_.begin(e));
+    double squared = 0.0;
+    for (std::ptrdiff_t i = samples_.begin(e); i < samples_.end(e); ++i) {
+      squared = std::max(squared, (jets_.row(3 * i) - centers_.row(e)).squaredNorm());
+    }
+    radii_[e] = std::sqrt(squared);
   }
 }
 

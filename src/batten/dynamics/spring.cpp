@@ -50,7 +50,7 @@ void PointSprings::add(const ForceInput& input, ForceSum& sum) const {
 
 std::shared_ptr<const Force> PointSprings::refined(const ElasticSurface& body, const ElasticSurface& child) const {
   std::vector<Spring> springs = springs_;
-  for (Spring& spring : springs) spring.place = place_on_child(body.patches(), child.patches(), spring.place);
+  for (Spring& spring : springs) spring.place = place_on_refined(body.patches(), spring.place);
   return std::make_shared<PointSprings>(child, std::move(springs));
 }
 

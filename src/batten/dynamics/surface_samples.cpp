@@ -154,12 +154,9 @@ Points SurfaceSamples::evaluate(const Points& control) const {
 
 Points SurfaceSamples::pull_back(const Points& forces) const {
   if (elements_.count() == 0) return Points::Zero(patches_.topology().vertex_count(), 3);
-  const Index* const first_vertex = elements_.vertices(0).data();
-  const auto place_of = [&](Index element) { return 3 * (elements_.vertices(element).data() - first_vertex); };
-  const Index last_element = elements_.count() - 1;
+  const auto place_of = [&](Index element) { return 3 * elements_.start(element); };
   const Eigen::Index step = rows_ * count() / forces.rows();
-  Buffer<double> of_elements(static_cast<std::size_t>(place_of(last_element)) +
-                             3 * elements_.vertices(last_element).size());
+  Buffer<double> of_elements(3 * elements_.vertices().size());
   parallel_for(
       elements_.count(),
       [&](std::ptrdiff_t first, std::ptrdiff_t last) {
@@ -213,10 +210,6 @@ std::shared_ptr<const PlaceRows> SurfaceSamples::point_rows(std::span<const std:
   }
   result->transposed = result->rows.transpose();
   return result;
-}
-
-SurfacePlace place_on_child(const SurfacePatches& parent, const SurfacePatches& child, const SurfacePlace& place) {
-  return parent.base().face_count() == child.base().face_count() ? place : refined_place(parent.base(), place);
 }
 
 Scalars sample_areas(const SurfaceSamples& samples, const Points& jets) {

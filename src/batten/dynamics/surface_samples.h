@@ -75,9 +75,6 @@ class SurfaceSamples {
   std::optional<PlaceRows> base_rows_;
 };
 
-/// Where a place of a body's surface is on that of its refinement.
-SurfacePlace place_on_child(const SurfacePatches& parent, const SurfacePatches& child, const SurfacePlace& place);
-
 /// |du x dv| times the sample's weight, of each place: they sum to the area. jets: of PointDuDv.
 Scalars sample_areas(const SurfaceSamples& samples, const Points& jets);
 

@@ -98,7 +98,7 @@ double shape_energy_of(ShapeEnergyKind kind, const JetTable& table, std::span<co
   return sum;
 }
 
-void shape_gradient(ShapeEnergyKind kind, const ShapeTable& table, std::span<const Index> vertices,
+void shape_gradient(ShapeEnergyKind kind, const JetTable& table, std::span<const Index> vertices,
                     ConstValuesRef reference, ShapeScratch& scratch, double* gradient) {
   gather(vertices, reference, scratch);
   Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>> sum(

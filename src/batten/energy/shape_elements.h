@@ -26,7 +26,7 @@ double shape_energy_of(ShapeEnergyKind kind, const JetTable& table, std::span<co
                        ConstValuesRef control, ShapeScratch& scratch);
 
 /// Adds the matrix times the reference itself to `gradient`, three numbers a vertex, without the matrix.
-void shape_gradient(ShapeEnergyKind kind, const ShapeTable& table, std::span<const Index> vertices,
+void shape_gradient(ShapeEnergyKind kind, const JetTable& table, std::span<const Index> vertices,
                     ConstValuesRef reference, ShapeScratch& scratch, double* gradient);
 
 /// The vertices of an element in ascending order, to walk along a row's columns.
