@@ -27,7 +27,7 @@ TEST(Drag, OnlyTakesEnergyOutInStillAir) {
 /// A flat square of area 4: 2 against motion along the normal, 0.5 along the surface.
 TEST(Drag, OfAFlatSquareIsAreaTimesSpeed) {
   const Mesh mesh = grid(4, 4);
-  const Drag drag(test::body_of(mesh), {.wind = steady_wind({1.0, 0.0, 3.0}), .normal = 2.0, .tangential = 0.5});
+  const Drag drag(test::square_of(mesh), {.wind = steady_wind({1.0, 0.0, 3.0}), .normal = 2.0, .tangential = 0.5});
   const Points velocities = Eigen::RowVector3d(0.0, 2.0, 1.0).replicate(mesh.points.rows(), 1);
   const Points forces = test::force_of(drag, test::moving(mesh.points, velocities, 0.1));
   EXPECT_NEAR((test::total(forces) - Eigen::Vector3d(2.0, -4.0, 16.0)).norm(), 0.0, 1e-12);

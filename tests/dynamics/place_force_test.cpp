@@ -18,7 +18,7 @@ Eigen::Vector3d pull(const PlaceMotion& motion) {
 
 TEST(PlaceForce, OfAFlatSquareIsTheIntegralOfTheFunction) {
   const Mesh mesh = grid(4, 4);
-  const PlaceForce force(test::body_of(mesh), pull);
+  const PlaceForce force(test::square_of(mesh), pull);
   const Points velocities = Eigen::RowVector3d(0.0, 2.0, 1.0).replicate(mesh.points.rows(), 1);
   const Points forces = test::force_of(force, test::moving(mesh.points, velocities, 0.25));
   EXPECT_NEAR((test::total(forces) - 4.0 * Eigen::Vector3d(0.25, 1.0, -0.4)).norm(), 0.0, 1e-12);
@@ -28,7 +28,7 @@ TEST(PlaceForce, AlongTheNormalIsPressure) {
   const Mesh mesh = test::jittered(grid(4, 4), 0.1, 1);
   const ElasticSurface body = test::body_of(mesh);
   const PlaceForce force(body, [](const PlaceMotion& motion) { return Eigen::Vector3d(3.0 * motion.normal); },
-                         {.points = 3});
+                         {.points = 3, .levels = 3});
   const test::Motion motion = test::still_at(mesh.points);
   EXPECT_NEAR((test::force_of(force, motion) - test::force_of(Pressure(body, 3.0), motion)).norm(), 0.0, 1e-12);
 }

@@ -70,7 +70,7 @@ TEST(Pressure, OfAClosedSurfaceNeitherPushesNorTurnsIt) {
 /// On a flat square of area 4 whose boundary stands still.
 TEST(Pressure, OfAnOpenSurfaceIsPressureTimesArea) {
   const Mesh mesh = grid(6, 5);
-  const ElasticSurface body = test::body_of(mesh);
+  const ElasticSurface body = test::square_of(mesh);
   const Pressure pressure(body, 2.5);
   EXPECT_FALSE(pressure.is_closed());
   const Points forces = test::force_of(pressure, test::still_at(mesh.points));

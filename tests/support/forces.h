@@ -17,6 +17,13 @@ inline ElasticSurface body_of(const Mesh& mesh, const Scheme& scheme = {}) {
   return ElasticSurface(Topology(mesh), scheme, mesh.points);
 }
 
+/// A flat square of area 4: its boundary curve has the corners of the grid.
+inline ElasticSurface square_of(const Mesh& mesh) {
+  Scheme scheme;
+  scheme.boundary = BoundaryRule::EdgeAndCorner;
+  return body_of(mesh, scheme);
+}
+
 /// A ball of quads: its control points, 98 of them, on the unit sphere.
 inline Mesh quad_ball() {
   Mesh mesh = cube();
