@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "batten/dynamics/surface_samples.h"
 #include "support/errors.h"
 #include "support/forces.h"
 

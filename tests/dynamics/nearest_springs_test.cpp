@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "batten/surface/limit_surface.h"
 #include "batten/tessellate/tessellator.h"
 #include "support/errors.h"
 #include "support/forces.h"

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "batten/dynamics/pressure.h"
+#include "batten/surface/limit_surface.h"
 #include "support/errors.h"
 #include "support/forces.h"
 

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "batten/dynamics/surface_samples.h"
 #include "batten/tessellate/tessellator.h"
 #include "support/errors.h"
 #include "support/forces.h"

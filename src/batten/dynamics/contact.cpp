@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "batten/dynamics/force_checks.h"
+#include "batten/dynamics/surface_samples.h"
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
 
@@ -59,7 +60,7 @@ struct Contact::Touch {
 Contact::Contact(const ElasticSurface& body, SignedDistance obstacle, const ContactOptions& options)
     : obstacle_(std::move(obstacle)),
       options_(options),
-      samples_(body.patches(), GridSamples{options.intervals}),
+      samples_(std::make_shared<const SurfaceSamples>(body.patches(), GridSamples{options.intervals})),
       face_areas_(element_areas(body.patches(), body.rest())) {
   if (!obstacle_) throw Error(ErrorCode::BadArgument, "a contact needs an obstacle");
   require_not_negative(options_.stiffness, "the stiffness of a contact");
@@ -74,26 +75,26 @@ double Contact::distance(const Eigen::Vector3d& point, Eigen::Vector3d& gradient
 }
 
 std::vector<Contact::Touch> Contact::find_touches(const Points& positions) const {
-  const Points base = samples_.base_points(positions);
-  const std::vector<Ball> balls = balls_around(samples_.elements(), base);
+  const Points base = samples_->base_points(positions);
+  const std::vector<Ball> balls = balls_around(samples_->elements(), base);
   std::vector<Touch> touches;
   Points places;
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-  for (Index e = 0; e < samples_.elements().count(); ++e) {
+  for (Index e = 0; e < samples_->elements().count(); ++e) {
     if (distance(balls[e].center, gradient) > balls[e].radius + options_.thickness) continue;
-    const JetTable& table = samples_.table(e);
+    const JetTable& table = samples_->table(e);
     places.resize(static_cast<Eigen::Index>(table.places.size()), 3);
-    samples_.evaluate_element(e, base, places);
-    const double total = table.places.empty() ? 0.0 : samples_.patches().quads() ? 1.0 : 0.5;
+    samples_->evaluate_element(e, base, places.data());
+    const double total = table.places.empty() ? 0.0 : samples_->patches().quads() ? 1.0 : 0.5;
     for (Eigen::Index i = 0; i < places.rows(); ++i) {
       const Eigen::Vector3d point = places.row(i);
       const double depth = options_.thickness - distance(point, gradient);
       if (depth <= 0.0) continue;
-      require_finite_vector(gradient, "the gradient of an obstacle at " + describe(point));
+      if (!gradient.allFinite()) throw not_finite(gradient, "the gradient of an obstacle at " + describe(point));
       if (gradient.isZero(0.0))
         throw Error(ErrorCode::BadArgument, "the gradient of an obstacle at " + describe(point) + " is 0");
       const double area = face_areas_[e] * table.weights[static_cast<std::size_t>(i)] / total;
-      touches.push_back({samples_.begin(e) + i, options_.stiffness * area, depth, gradient.stableNormalized(), point});
+      touches.push_back({samples_->begin(e) + i, options_.stiffness * area, depth, gradient.stableNormalized(), point});
     }
   }
   return touches;
@@ -105,7 +106,7 @@ void Contact::add(const ForceInput& input, ForceSum& sum) const {
   const auto count = static_cast<Eigen::Index>(touches.size());
   std::vector<std::ptrdiff_t> samples;
   for (const Touch& touch : touches) samples.push_back(touch.sample);
-  PlaceSprings springs{samples_.point_rows(samples), Scalars(count), Points(count, 3), false, Points(count, 3)};
+  PlaceSprings springs{samples_->point_rows(samples), Scalars(count), Points(count, 3), false, Points(count, 3)};
   const bool rubs = options_.friction > 0.0 && input.step > 0.0;
   const Points starts = rubs ? Points(springs.rows->rows * input.start) : Points();
   Points slipping = Points::Zero(count, 3);

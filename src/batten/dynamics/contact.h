@@ -2,11 +2,14 @@
 #pragma once
 #include <Eigen/Core>
 #include <functional>
+#include <memory>
+#include <vector>
 
 #include "batten/dynamics/force.h"
-#include "batten/dynamics/surface_samples.h"
 
 namespace batten {
+
+class SurfaceSamples;
 
 /// The signed distance from an obstacle: negative inside it. It must change by no more than the distance between two
 /// points (1-Lipschitz, as every distance does): faces that are farther away than their size are not looked at.
@@ -53,7 +56,7 @@ class Contact : public Force {
 
   SignedDistance obstacle_;
   ContactOptions options_;
-  SurfaceSamples samples_;
+  std::shared_ptr<const SurfaceSamples> samples_;
   Scalars face_areas_;  ///< of the elements at rest
 };
 

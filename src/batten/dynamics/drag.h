@@ -1,11 +1,14 @@
 /// \file Drag of the air, and wind.
 #pragma once
 #include <functional>
+#include <memory>
 
 #include "batten/dynamics/force.h"
-#include "batten/dynamics/surface_samples.h"
+#include "batten/surface/quadrature.h"
 
 namespace batten {
+
+class SurfaceSamples;
 
 /// The velocity of the air, in the points' unit per second, at a point in space and a time in seconds.
 using WindField = std::function<Eigen::Vector3d(const Eigen::Vector3d& point, double time)>;
@@ -45,7 +48,7 @@ class Drag : public Force {
   Points carry(const Points& jets, const Points& start, const ForceInput& input) const;
 
   DragOptions options_;
-  SurfaceSamples samples_;
+  std::shared_ptr<const SurfaceSamples> samples_;
   std::shared_ptr<const PlaceRows> rows_;
   Scalars areas_;
 };

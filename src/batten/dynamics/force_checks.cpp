@@ -3,8 +3,6 @@
 #include <cmath>
 #include <sstream>
 
-#include "batten/error.h"
-
 namespace batten {
 
 std::string describe(const SurfacePlace& place) {
@@ -19,12 +17,16 @@ std::string describe(const Eigen::Vector3d& vector) {
   return text.str();
 }
 
+Error not_finite(const Eigen::Vector3d& vector, const std::string& what) {
+  return {ErrorCode::NotFinite, what + " is not finite: " + describe(vector)};
+}
+
 void require_finite_number(double number, const std::string& what) {
   if (!std::isfinite(number)) throw Error(ErrorCode::NotFinite, what + " is not finite");
 }
 
 void require_finite_vector(const Eigen::Vector3d& vector, const std::string& what) {
-  if (!vector.allFinite()) throw Error(ErrorCode::NotFinite, what + " is not finite: " + describe(vector));
+  if (!vector.allFinite()) throw not_finite(vector, what);
 }
 
 void require_not_negative(double number, const std::string& what) {

@@ -1,13 +1,15 @@
 /// \file A force of the user's own.
 #pragma once
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "batten/dynamics/force.h"
-#include "batten/dynamics/surface_samples.h"
 
 namespace batten {
+
+class SurfaceSamples;
 
 /// What a PlaceForce is asked for.
 struct PlaceMotion {
@@ -51,7 +53,7 @@ class PlaceForce : public Force {
   PlaceFunction function_;
   PlaceForceOptions options_;
   int points_;
-  SurfaceSamples samples_;
+  std::shared_ptr<const SurfaceSamples> samples_;
 };
 
 }  // namespace batten

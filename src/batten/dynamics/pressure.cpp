@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "batten/dynamics/force_checks.h"
+#include "batten/dynamics/surface_samples.h"
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
 
@@ -41,13 +42,13 @@ struct Pressure::Volume {
 
 Pressure::Volume Pressure::measure(const Points& positions) const {
   const Eigen::RowVector3d center = positions.colwise().mean();
-  Points jets = samples_.evaluate(positions);
+  Points jets = samples_->evaluate(positions);
   using Sums = Eigen::Vector4d;  // the vector area, and the volume
   const Sums sums = parallel_reduce(
-      samples_.elements().count(), Sums(Sums::Zero()),
+      samples_->elements().count(), Sums(Sums::Zero()),
       [&](std::ptrdiff_t first, std::ptrdiff_t last) {
         Sums sum = Sums::Zero();
-        visit_samples(samples_, first, last, [&](std::ptrdiff_t i, double weight) {
+        visit_samples(*samples_, first, last, [&](std::ptrdiff_t i, double weight) {
           const Eigen::RowVector3d s = jets.row(3 * i) - center;
           const Eigen::RowVector3d du = jets.row(3 * i + 1);
           const Eigen::RowVector3d dv = jets.row(3 * i + 2);
@@ -61,30 +62,30 @@ Pressure::Volume Pressure::measure(const Points& positions) const {
         return sum;
       },
       [](const Sums& a, const Sums& b) { return Sums(a + b); }, kElementBlock);
-  Volume volume{sums[3], samples_.pull_back(jets)};
+  Volume volume{sums[3], samples_->pull_back(jets)};
   volume.gradient.rowwise() -= sums.head<3>().transpose() / static_cast<double>(positions.rows());
   return volume;
 }
 
 Points Pressure::open_force(const Points& positions) const {
-  const Points jets = samples_.evaluate(positions);
-  Points forces(samples_.count(), 3);
+  const Points jets = samples_->evaluate(positions);
+  Points forces(samples_->count(), 3);
   parallel_for(
-      samples_.elements().count(),
+      samples_->elements().count(),
       [&](std::ptrdiff_t first, std::ptrdiff_t last) {
-        visit_samples(samples_, first, last, [&](std::ptrdiff_t i, double weight) {
+        visit_samples(*samples_, first, last, [&](std::ptrdiff_t i, double weight) {
           const Eigen::RowVector3d du = jets.row(3 * i + 1);
           const Eigen::RowVector3d dv = jets.row(3 * i + 2);
           forces.row(i) = weight * du.cross(dv);
         });
       },
       kElementBlock);
-  return samples_.pull_back(forces);
+  return samples_->pull_back(forces);
 }
 
 Pressure::Pressure(const ElasticSurface& body, PressureOptions options)
     : options_(std::move(options)),
-      samples_(body.patches(), GaussSamples{options_.quadrature}),
+      samples_(std::make_shared<const SurfaceSamples>(body.patches(), GaussSamples{options_.quadrature})),
       closed_(is_closed_surface(body.patches())) {
   require_not_negative(options_.bulk_modulus, "the bulk modulus of a pressure");
   if (options_.volume && !closed_)

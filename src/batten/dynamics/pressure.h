@@ -1,12 +1,14 @@
 /// \file Pressure, as of air in a balloon.
 #pragma once
 #include <functional>
-#include <optional>
+#include <memory>
 
 #include "batten/dynamics/force.h"
-#include "batten/dynamics/surface_samples.h"
+#include "batten/surface/quadrature.h"
 
 namespace batten {
+
+class SurfaceSamples;
 
 /// A number for each time in seconds.
 using NumberPath = std::function<double(double time)>;
@@ -62,7 +64,7 @@ class Pressure : public Force {
   Points open_force(const Points& positions) const;
 
   PressureOptions options_;
-  SurfaceSamples samples_;
+  std::shared_ptr<const SurfaceSamples> samples_;
   bool closed_;
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "batten/double4.h"
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
 #include "batten/solve/sparse_product.h"
@@ -48,19 +49,62 @@ void with_points(const JetTable& table, const Body& body) {
   body.template operator()<Eigen::Dynamic>();
 }
 
+constexpr Eigen::Index kMostStackPoints = 64;
+
+/// Calls body(points), `count` of them, on the stack where they are few.
+template <int N, typename Body>
+void with_scratch(Eigen::Index count, const Body& body) {
+  if constexpr (N != Eigen::Dynamic) {
+    Double4 points[N];
+    return body(points);
+  }
+  if (count <= kMostStackPoints) {
+    Double4 points[kMostStackPoints];
+    return body(points);
+  }
+  Buffer<Double4> points(static_cast<std::size_t>(count));
+  body(points.data());
+}
+
+/// result = jets * the points of the vertices.
 template <int N>
-using Jets = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, N, Eigen::RowMajor>>;
+void evaluate_rows(const JetTable& table, std::span<const Index> vertices, const Points& base, double* result) {
+  const Eigen::Index count = N > 0 ? N : table.jets.cols();
+  with_scratch<N>(count, [&](Double4* points) {
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const double* const p = base.data() + 3 * static_cast<std::ptrdiff_t>(vertices[static_cast<std::size_t>(i)]);
+      points[i] = Double4{p[0], p[1], p[2], 0.0};
+    }
+    const double* weight = table.jets.data();
+    for (Eigen::Index r = 0; r < table.jets.rows(); ++r, weight += count, result += 3) {
+      Double4 even{};
+      Double4 odd{};
+      for (Eigen::Index i = 0; i + 1 < count; i += 2) {
+        even += weight[i] * points[i];
+        odd += weight[i + 1] * points[i + 1];
+      }
+      if (count % 2 != 0) even += weight[count - 1] * points[count - 1];
+      const Double4 sum = even + odd;
+      for (int c = 0; c < 3; ++c) result[c] = sum[c];
+    }
+  });
+}
 
 /// to = jets^T forces, row by row of three; forces are of each `step`-th row of the table.
 template <int N>
-void pull_back_element(const JetTable& table, Eigen::Index step, const double* forces, double* to) {
-  const Eigen::Index count = table.jets.cols();
-  const Jets<N> jets(table.jets.data(), table.jets.rows(), count);
-  Eigen::Matrix<double, N, 3> sum = Eigen::Matrix<double, N, 3>::Zero(count, 3);
-  for (Eigen::Index r = 0; r < jets.rows(); r += step, forces += 3) {
-    for (int c = 0; c < 3; ++c) sum.col(c) += forces[c] * jets.row(r).transpose();
-  }
-  Eigen::Map<Eigen::Matrix<double, N, 3, Eigen::RowMajor>>(to, count, 3) = sum;
+void pull_back_rows(const JetTable& table, Eigen::Index step, const double* forces, double* to) {
+  const Eigen::Index count = N > 0 ? N : table.jets.cols();
+  with_scratch<N>(count, [&](Double4* sums) {
+    std::fill(sums, sums + count, Double4{});
+    const double* weight = table.jets.data();
+    for (Eigen::Index r = 0; r < table.jets.rows(); r += step, weight += step * count, forces += 3) {
+      const Double4 force{forces[0], forces[1], forces[2], 0.0};
+      for (Eigen::Index i = 0; i < count; ++i) sums[i] += weight[i] * force;
+    }
+    for (Eigen::Index i = 0; i < count; ++i, to += 3) {
+      for (int c = 0; c < 3; ++c) to[c] = sums[i][c];
+    }
+  });
 }
 
 }  // namespace
@@ -127,15 +171,9 @@ Points SurfaceSamples::base_points(const Points& control) const {
   return result;
 }
 
-void SurfaceSamples::evaluate_element(Index element, const Points& base, Eigen::Ref<Points> result) const {
+void SurfaceSamples::evaluate_element(Index element, const Points& base, double* result) const {
   const JetTable& of_kind = table(element);
-  const std::span<const Index> vertices = elements_.vertices(element);
-  const auto count = static_cast<Eigen::Index>(vertices.size());
-  with_points(of_kind, [&]<int N>() {
-    Eigen::Matrix<double, N, 3> points(count, 3);
-    for (Eigen::Index i = 0; i < count; ++i) points.row(i) = base.row(vertices[static_cast<std::size_t>(i)]);
-    result.noalias() = Jets<N>(of_kind.jets.data(), of_kind.jets.rows(), count).lazyProduct(points);
-  });
+  with_points(of_kind, [&]<int N>() { evaluate_rows<N>(of_kind, elements_.vertices(element), base, result); });
 }
 
 Points SurfaceSamples::evaluate(const Points& control) const {
@@ -145,7 +183,7 @@ Points SurfaceSamples::evaluate(const Points& control) const {
       elements_.count(),
       [&](std::ptrdiff_t first, std::ptrdiff_t last) {
         for (auto e = static_cast<Index>(first); e < static_cast<Index>(last); ++e) {
-          evaluate_element(e, base, result.middleRows(rows_ * begin(e), rows_ * (end(e) - begin(e))));
+          evaluate_element(e, base, result.data() + 3 * rows_ * begin(e));
         }
       },
       kElementBlock);
@@ -162,8 +200,8 @@ Points SurfaceSamples::pull_back(const Points& forces) const {
       [&](std::ptrdiff_t first, std::ptrdiff_t last) {
         for (auto e = static_cast<Index>(first); e < static_cast<Index>(last); ++e) {
           with_points(table(e), [&]<int N>() {
-            pull_back_element<N>(table(e), step, forces.data() + 3 * (rows_ / step) * begin(e),
-                                 of_elements.data() + place_of(e));
+            pull_back_rows<N>(table(e), step, forces.data() + 3 * (rows_ / step) * begin(e),
+                              of_elements.data() + place_of(e));
           });
         }
       },

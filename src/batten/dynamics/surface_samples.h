@@ -51,8 +51,9 @@ class SurfaceSamples {
 
   /// Control points of the base, which the elements' vertices are.
   Points base_points(const Points& control) const;
-  /// The rows of one element's places. base: as base_points() gives. result: rows() for each place.
-  void evaluate_element(Index element, const Points& base, Eigen::Ref<Points> result) const;
+  /// The rows of one element's places. base: as base_points() gives. result: three numbers a row, rows() for each
+  /// place.
+  void evaluate_element(Index element, const Points& base, double* result) const;
   /// Those of all: rows() * count() of them.
   Points evaluate(const Points& control) const;
   /// The transposed map: the sum over all rows of weights^T force, V-by-3. forces: as evaluate() gives, or of the
