@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include "batten/dynamics/elastic_motion.h"
+#include "batten/dynamics/gravity.h"
 #include "batten/dynamics/surface_samples.h"
 #include "support/errors.h"
 #include "support/forces.h"
@@ -128,6 +130,31 @@ TEST(Contact, TellsAlongWhatSpringsPull) {
   };
   EXPECT_EQ(directions(10.0), Points(Eigen::RowVector3d(0.0, 0.0, 1.0).replicate(36, 1)));
   EXPECT_EQ(directions(0.01).norm(), 0.0);
+}
+
+/// The speed along a plane tilted by atan 0.5, of a flat sheet that has fallen on it from rest 0.5 seconds ago.
+double sliding_speed(double friction) {
+  Mesh mesh = grid(3, 3);
+  const Eigen::Vector3d along = Eigen::Vector3d(2.0, 0.0, -1.0).normalized();
+  mesh.points.col(2) = -0.5 * mesh.points.col(0);
+  ElasticOptions options;
+  options.material.damping = {0.0};
+  const ElasticSurface body(Topology(mesh), Scheme{}, mesh.points, options);
+  const auto weight = std::make_shared<const Gravity>(body);
+  const auto plane = std::make_shared<const Contact>(body, plane_obstacle({0.0, 0.0, 0.0}, {1.0, 0.0, 2.0}),
+                                                     ContactOptions{.stiffness = 1e4, .friction = friction});
+  ElasticMotion motion(body, {weight, plane}, {}, {.step = 0.01});
+  ElasticState state = state_at_rest(body);
+  for (int i = 0; i < 50; ++i) motion.step(state);
+  return (body.mass() * state.velocities).colwise().sum().dot(along.transpose()) / body.mass().sum();
+}
+
+/// g (sin - mu cos) t; what touches before the load is full slips a little more.
+TEST(Contact, LetsSlideAsFrictionSays) {
+  const double cosine = 2.0 / std::sqrt(5.0);
+  EXPECT_NEAR(sliding_speed(0.0), 9.81 * 0.5 * cosine * 0.5, 0.01);
+  EXPECT_NEAR(sliding_speed(0.2), 9.81 * 0.3 * cosine * 0.5, 0.1);
+  EXPECT_NEAR(sliding_speed(0.8), 0.0, 0.1);
 }
 
 TEST(Contact, HasNoFrictionInAnEquilibrium) {

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "batten/dynamics/elastic_motion.h"
 #include "support/errors.h"
 #include "support/forces.h"
 
@@ -54,7 +55,6 @@ TEST(Drag, DoesNothingToWhatTheWindCarries) {
   EXPECT_NEAR(test::force_of(drag, test::moving(mesh.points, velocities, 0.1)).norm(), 0.0, 1e-12);
 }
 
-/// An equilibrium is a very long step from where the body is.
 TEST(Drag, OfAnEquilibriumIsThatOfABodyThatRests) {
   const Mesh mesh = test::jittered(test::quad_ball(), 0.1, 1);
   const WindField wind = [](const Eigen::Vector3d& point, double time) {
@@ -64,8 +64,27 @@ TEST(Drag, OfAnEquilibriumIsThatOfABodyThatRests) {
   test::Motion still = test::still_at(mesh.points);
   still.time = 0.25;
   const Points forces = test::force_of(drag, still);
+  EXPECT_TRUE(test::sum_of(drag, still).springs.empty());
   still.step = 0.25;
   EXPECT_NEAR((test::force_of(drag, still) - forces).norm(), 0.0, 1e-12 * forces.norm());
+}
+
+/// A thousand times as strong as inertia: the sheet is carried along, and never overtakes the wind.
+TEST(Drag, OfLightClothIsStable) {
+  const Mesh mesh = grid(4, 4);
+  ElasticOptions options;
+  options.material.density = {0.01};
+  options.material.damping = {0.0};
+  const ElasticSurface body(Topology(mesh), Scheme{}, mesh.points, options);
+  const auto drag =
+      std::make_shared<const Drag>(body, DragOptions{.wind = steady_wind({0.5, 0.0, 1.0}), .normal = 600.0});
+  ElasticMotion motion(body, {drag});
+  ElasticState state = state_at_rest(body);
+  for (int i = 0; i < 20; ++i) {
+    motion.step(state);
+    EXPECT_LT(state.velocities.col(2).maxCoeff(), 1.0 + 1e-6);
+    EXPECT_GT(state.velocities.col(2).minCoeff(), 0.9);
+  }
 }
 
 TEST(Drag, KeepsRowsAndStiffnessForStepsOfOneLength) {

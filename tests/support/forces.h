@@ -65,8 +65,9 @@ inline ForceSum sum_of(const Force& force, const Motion& motion) {
 inline Points force_of(const Force& force, const Motion& motion) {
   ForceSum sum = sum_of(force, motion);
   for (const PlaceSprings& springs : sum.springs) {
-    const Points ways = springs.targets - Points(springs.rows->rows * motion.positions);
-    sum.force += springs.rows->transposed * Points(springs.stiffness.asDiagonal() * ways);
+    Values stretch = springs.targets - Points(springs.rows->rows * motion.positions);
+    turn_into_forces(springs, stretch);
+    sum.force += springs.rows->transposed * stretch;
   }
   return sum.force;
 }

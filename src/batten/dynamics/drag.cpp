@@ -21,37 +21,27 @@ Drag::Drag(const ElasticSurface& body, DragOptions options)
   rows_ = samples_->point_rows(all);
 }
 
-/// What the force on each place is over its area: of a second, or, where there is a step, of the way in it.
-Points Drag::carry(const Points& jets, const Points& start, const ForceInput& input) const {
-  Points way(samples_->count(), 3);
+void Drag::add(const ForceInput& input, ForceSum& sum) const {
+  const double most = std::max(options_.normal, options_.tangential);
+  const Points jets = samples_->evaluate(input.positions);
+  const Points velocities = samples_->evaluate(input.velocities);
+  Points points(samples_->count(), 3);
+  Points forces(samples_->count(), 3);
   for (std::ptrdiff_t i = 0; i < samples_->count(); ++i) {
-    const Eigen::Vector3d point = jets.row(3 * i);
+    points.row(i) = jets.row(3 * i);
+    const Eigen::Vector3d point = points.row(i);
     Eigen::Vector3d wind = Eigen::Vector3d::Zero();
     if (options_.wind) wind = options_.wind(point, input.time);
     if (!wind.allFinite()) throw not_finite(wind, "the wind at " + describe(point));
-    Eigen::Vector3d motion = wind;
-    if (input.step > 0.0) motion = Eigen::Vector3d(start.row(3 * i)) + input.step * wind - point;
     const Eigen::Vector3d cross = Eigen::Vector3d(jets.row(3 * i + 1)).cross(Eigen::Vector3d(jets.row(3 * i + 2)));
     const Eigen::Vector3d normal = cross.stableNormalized();
-    const Eigen::Vector3d across = normal.dot(motion) * normal;
-    way.row(i) = options_.normal * across + options_.tangential * (motion - across);
+    const Eigen::Vector3d speed = wind - Eigen::Vector3d(velocities.row(3 * i));
+    const Eigen::Vector3d across = normal.dot(speed) * normal;
+    forces.row(i) = areas_[i] * (options_.normal * across + options_.tangential * (speed - across));
   }
-  return way;
-}
-
-void Drag::add(const ForceInput& input, ForceSum& sum) const {
-  const double most = std::max(options_.normal, options_.tangential);
-  if (most == 0.0) return;
-  const Points jets = samples_->evaluate(input.positions);
-  if (input.step <= 0.0) {
-    Points forces = carry(jets, jets, input);
-    forces.array().colwise() *= areas_.array();
-    sum.force += samples_->pull_back(forces);
-    return;
-  }
-  Points targets = carry(jets, samples_->evaluate(input.start), input) / most;
-  for (std::ptrdiff_t i = 0; i < samples_->count(); ++i) targets.row(i) += jets.row(3 * i);
-  sum.springs.push_back({rows_, areas_ * (most / input.step), std::move(targets), true});
+  sum.force += samples_->pull_back(forces);
+  // Springs to where the places are: their stiffness alone says how the force changes with the end of the step.
+  if (input.step > 0.0) sum.springs.push_back({rows_, areas_ * (most / input.step), std::move(points), true});
 }
 
 std::shared_ptr<const Force> Drag::refined(const ElasticSurface& /*body*/, const ElasticSurface& child) const {

@@ -28,7 +28,7 @@ struct DragOptions {
 
 /// The force on a place of area A that moves with v in the wind w: A (normal (w - v)_n + tangential (w - v)_t), by the
 /// parts along the normal and along the surface. Both sides of a sheet are alike. In still air it only takes energy
-/// out. Implicit: each place is a spring to where the wind would carry it; stable however light the body is. An
+/// out. Implicit: each place is also a spring, to where it is, so that steps are stable however light the body is. An
 /// equilibrium has v = 0.
 /// The springs are lasting for steps of one length.
 class Drag : public Force {
@@ -45,8 +45,6 @@ class Drag : public Force {
   std::shared_ptr<const Force> refined(const ElasticSurface& body, const ElasticSurface& child) const override;
 
  private:
-  Points carry(const Points& jets, const Points& start, const ForceInput& input) const;
-
   DragOptions options_;
   std::shared_ptr<const SurfaceSamples> samples_;
   std::shared_ptr<const PlaceRows> rows_;
