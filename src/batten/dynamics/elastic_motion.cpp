@@ -150,8 +150,8 @@ Points ElasticMotion::Parts::total_force(const ForceSum& sum, const Points& posi
   Points total = surface.force(positions) + sum.force;
   for (const PlaceSprings& spring : sum.springs) {
     if (spring.rows->rows.rows() == 0) continue;
-    Points stretch = spring.targets - spring.rows->rows * positions;
-    stretch.array().colwise() *= spring.stiffness.array();
+    Values stretch = spring.targets - spring.rows->rows * positions;
+    turn_into_forces(spring, stretch);
     total += spring.rows->transposed * stretch;
   }
   return total;

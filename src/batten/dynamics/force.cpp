@@ -16,4 +16,13 @@ SurfacePlace place_on_refined(const SurfacePatches& patches, const SurfacePlace&
   return patches.has_first_step() ? place : refined_place(patches.base(), place);
 }
 
+void turn_into_forces(const PlaceSprings& springs, Values& stretch) {
+  const Points& directions = springs.directions;
+  for (Eigen::Index i = 0; i < directions.rows(); ++i) {
+    if (directions.row(i).isZero(0.0)) continue;
+    stretch.row(i) = directions.row(i).dot(stretch.row(i).head<3>()) * directions.row(i);
+  }
+  stretch.array().colwise() *= springs.stiffness.array();
+}
+
 }  // namespace batten

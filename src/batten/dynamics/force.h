@@ -45,9 +45,16 @@ struct PlaceSprings {
   std::shared_ptr<const PlaceRows> rows;
   Scalars stiffness;  ///< k of each place, N/m, 0 or more
   Points targets;     ///< P-by-3
-  /// True where rows and stiffness are the same in every call: a step factors them once, together with the body.
+  /// True where rows and stiffness are the same in every call with the same step: a step factors them once, together
+  /// with the body.
   bool lasting = false;
+  /// Empty, or P-by-3: a spring with a unit vector n pulls along it alone, with the force k n n^T (target - point), one
+  /// with 0 in all directions. Not for lasting springs.
+  Points directions = {};
 };
+
+/// The forces of springs that are stretched so far, target - point: in place, P-by-3.
+void turn_into_forces(const PlaceSprings& springs, Values& stretch);
 
 /// Where forces add up.
 struct ForceSum {

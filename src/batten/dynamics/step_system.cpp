@@ -58,6 +58,11 @@ struct StepSystem::Extra {
     }
   }
   bool empty() const { return springs.empty() && along.empty(); }
+  /// Each coordinate by itself.
+  bool is_by_columns() const {
+    const auto pulls_all_ways = [](const PlaceSprings* spring) { return spring->directions.size() == 0; };
+    return along.empty() && std::all_of(springs.begin(), springs.end(), pulls_all_ways);
+  }
 
   /// product += stiffness * x.
   void add(const Values& x, Values& product) const {
@@ -65,7 +70,7 @@ struct StepSystem::Extra {
     Values back;
     for (const PlaceSprings* spring : springs) {
       multiply(spring->rows->rows, x, at);
-      at.array().colwise() *= spring->stiffness.array();
+      turn_into_forces(*spring, at);
       multiply(spring->rows->transposed, at, back);
       product += back;
     }
@@ -131,7 +136,7 @@ Values StepSystem::residual(const Round& round, const Extra& extra, const Points
     // S has the stiffness of lasting springs already.
     Values stretch = spring.targets;
     if (!spring.lasting) stretch -= spring.rows->rows * positions;
-    stretch.array().colwise() *= spring.stiffness.array();
+    turn_into_forces(spring, stretch);
     Values force;
     multiply(spring.rows->transposed, stretch, force);
     result += force;
@@ -172,7 +177,7 @@ int StepSystem::correct(const Extra& extra, const Values& right, const Progress&
   stop.progress = progress;
   const SolveReport report = conjugate_gradients(
       apply, [&](const Values& x, Values& z) { precondition(x, z); },
-      extra.along.empty() ? Coefficients::EachColumn : Coefficients::Joint, b, step, stop);
+      extra.is_by_columns() ? Coefficients::EachColumn : Coefficients::Joint, b, step, stop);
   positions += step;
   return report.iterations;
 }

@@ -47,6 +47,7 @@ class FaceElements {
 
   Index count() const { return static_cast<Index>(faces_.size()); }
   Index kind(Index element) const { return kinds_[element]; }
+  Index base_face(Index element) const { return base_faces_[element]; }
   /// The control face that an element is, or lies in.
   Index control_face(Index element) const { return faces_[element]; }
   /// Vertices of the base, none twice.

@@ -5,10 +5,10 @@
 #include <numeric>
 #include <string>
 
+#include "batten/energy/jet_tables.h"
 #include "batten/energy/matrix_rows.h"
 #include "batten/energy/shape_elements.h"
 #include "batten/energy/shape_rows.h"
-#include "batten/energy/shape_tables.h"
 #include "batten/error.h"
 #include "batten/mesh/checked_values.h"
 #include "batten/parallel/parallel.h"
@@ -33,14 +33,17 @@ struct ShapeEnergy::Parts {
   SurfacePatches patches;
   ShapeEnergyKind kind;
   FaceElements elements;
-  std::vector<ShapeTable> tables;
+  std::vector<JetTable> tables;
   Matrix pattern;  ///< K with zeros for entries
 
   Parts(const SurfacePatches& patches_in, ShapeEnergyKind kind_in, const QuadratureOptions& options,
         const Progress& progress)
-      : patches(patches_in), kind(kind_in), elements(patches), tables(shape_tables(patches, elements, kind, options)) {
+      : patches(patches_in),
+        kind(kind_in),
+        elements(patches),
+        tables(jet_tables(patches, elements, shape_jet_rows(kind), options)) {
     std::vector<Buffer<Index>> points;
-    for (const ShapeTable& table : tables) points.push_back(table.points);
+    for (const JetTable& table : tables) points.push_back(table.points);
     elements.list_vertices(patches, points);
     const Index count = patches.base().vertex_count();
     pattern = matrix_of_rows<PatternScratch>(
