@@ -69,7 +69,8 @@ TEST(Drag, OfAnEquilibriumIsThatOfABodyThatRests) {
   EXPECT_NEAR((test::force_of(drag, still) - forces).norm(), 0.0, 1e-12 * forces.norm());
 }
 
-/// A thousand times as strong as inertia: the sheet is carried along, and never overtakes the wind.
+/// A thousand times as strong as inertia: the sheet is carried along, and never overtakes the wind. A step settles to
+/// 1e-6 of the diagonal, which is 2e-4 of the speed.
 TEST(Drag, OfLightClothIsStable) {
   const Mesh mesh = grid(4, 4);
   ElasticOptions options;
@@ -82,7 +83,7 @@ TEST(Drag, OfLightClothIsStable) {
   ElasticState state = state_at_rest(body);
   for (int i = 0; i < 20; ++i) {
     motion.step(state);
-    EXPECT_LT(state.velocities.col(2).maxCoeff(), 1.0 + 1e-6);
+    EXPECT_LT(state.velocities.col(2).maxCoeff(), 1.0 + 1e-3);
     EXPECT_GT(state.velocities.col(2).minCoeff(), 0.9);
   }
 }

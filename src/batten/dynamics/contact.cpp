@@ -104,8 +104,8 @@ void Contact::add(const ForceInput& input, ForceSum& sum) const {
   const std::vector<Touch> touches = find_touches(input.positions);
   if (touches.empty()) return;
   const auto count = static_cast<Eigen::Index>(touches.size());
-  std::vector<std::ptrdiff_t> samples;
-  for (const Touch& touch : touches) samples.push_back(touch.sample);
+  std::vector<std::ptrdiff_t> samples(touches.size());
+  std::transform(touches.begin(), touches.end(), samples.begin(), [](const Touch& touch) { return touch.sample; });
   PlaceSprings springs{samples_->point_rows(samples), Scalars(count), Points(count, 3), false, Points(count, 3)};
   const bool rubs = options_.friction > 0.0 && input.step > 0.0;
   const Points starts = rubs ? Points(springs.rows->rows * input.start) : Points();

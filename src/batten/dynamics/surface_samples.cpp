@@ -244,7 +244,7 @@ std::shared_ptr<const PlaceRows> SurfaceSamples::point_rows(std::span<const std:
   if (base_rows_) {
     result->rows = rows * base_rows_->rows;
   } else {
-    result->rows = std::move(rows);
+    result->rows.swap(rows);
   }
   result->transposed = result->rows.transpose();
   return result;
