@@ -21,9 +21,9 @@ namespace batten {
 
 namespace {
 
-using Coefficients = std::vector<double>;
+using FaceCoefficients = std::vector<double>;
 
-void require_coefficients(const Coefficients& coefficients, Index face_count, const std::string& name) {
+void require_coefficients(const FaceCoefficients& coefficients, Index face_count, const std::string& name) {
   if (coefficients.size() != 1 && coefficients.size() != static_cast<std::size_t>(face_count)) {
     throw Error(ErrorCode::BadShape, "there are " + std::to_string(coefficients.size()) + " values of the " + name +
                                          ", but the mesh has " + std::to_string(face_count) +
@@ -36,12 +36,12 @@ void require_coefficients(const Coefficients& coefficients, Index face_count, co
   }
 }
 
-double of_face(const Coefficients& coefficients, Index face) {
+double of_face(const FaceCoefficients& coefficients, Index face) {
   return coefficients[coefficients.size() == 1 ? 0 : static_cast<std::size_t>(face)];
 }
 
-Coefficients scaled(const Coefficients& coefficients, double factor) {
-  Coefficients result = coefficients;
+FaceCoefficients scaled(const FaceCoefficients& coefficients, double factor) {
+  FaceCoefficients result = coefficients;
   for (double& value : result) value *= factor;
   return result;
 }
@@ -182,7 +182,7 @@ void ElasticSurface::Parts::make_mass(const Progress& progress) {
 }
 
 void ElasticSurface::Parts::measure_lengths(const Points& base_rest, const Progress& progress) {
-  const auto add = [&](ShapeEnergyKind kind, const Coefficients& coefficients, const Progress& part) {
+  const auto add = [&](ShapeEnergyKind kind, const FaceCoefficients& coefficients, const Progress& part) {
     const ShapeEnergy energy(patches, kind, kShapeQuadrature, progress_within(part, 0.0, 0.3));
     Matrix matrix = energy.matrix(base_rest, coefficients, progress_within(part, 0.3, 1.0));
     if (options.rest == RestModel::Rotating) {
@@ -274,9 +274,10 @@ double ElasticSurface::kinetic_energy(ConstValuesRef velocities) const {
 
 namespace {
 
-Coefficients of_children(const Coefficients& coefficients, const Topology& parent, const Topology& child, bool quads) {
+FaceCoefficients of_children(const FaceCoefficients& coefficients, const Topology& parent, const Topology& child,
+                             bool quads) {
   if (coefficients.size() == 1) return coefficients;
-  Coefficients result(static_cast<std::size_t>(child.face_count()));
+  FaceCoefficients result(static_cast<std::size_t>(child.face_count()));
   for (Index f = 0; f < child.face_count(); ++f) {
     result[static_cast<std::size_t>(f)] = of_face(coefficients, quads ? parent.face(f) : f / 4);
   }
@@ -295,7 +296,7 @@ ElasticSurface ElasticSurface::refined(const Progress& progress) const {
   ElasticOptions child = options();
   // The parameters of a child's face run twice as fast, but where they were the child's own already.
   const bool halved = child.measure == ElasticMeasure::Parameters && !patches().has_first_step();
-  for (Coefficients* coefficients :
+  for (FaceCoefficients* coefficients :
        {&child.material.density, &child.material.damping, &child.material.tension, &child.material.rigidity}) {
     *coefficients = of_children(*coefficients, topology(), step.child(), patches().quads());
   }

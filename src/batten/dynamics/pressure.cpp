@@ -12,7 +12,7 @@ namespace batten {
 
 namespace {
 
-constexpr std::ptrdiff_t kElementBlock = 256;
+constexpr std::ptrdiff_t kPressureBlock = 256;
 
 bool is_closed_surface(const SurfacePatches& patches) {
   const Topology& topology = patches.topology();
@@ -61,7 +61,7 @@ Pressure::Volume Pressure::measure(const Points& positions) const {
         });
         return sum;
       },
-      [](const Sums& a, const Sums& b) { return Sums(a + b); }, kElementBlock);
+      [](const Sums& a, const Sums& b) { return Sums(a + b); }, kPressureBlock);
   Volume volume{sums[3], samples_->pull_back(jets)};
   volume.gradient.rowwise() -= sums.head<3>().transpose() / static_cast<double>(positions.rows());
   return volume;
@@ -79,7 +79,7 @@ Points Pressure::open_force(const Points& positions) const {
           forces.row(i) = weight * du.cross(dv);
         });
       },
-      kElementBlock);
+      kPressureBlock);
   return samples_->pull_back(forces);
 }
 

@@ -14,7 +14,7 @@ namespace batten {
 
 namespace {
 
-constexpr std::ptrdiff_t kElementBlock = 256;
+constexpr std::ptrdiff_t kSampleBlock = 256;
 
 std::vector<JetRow> jet_rows(int rows) {
   std::vector<JetRow> all{JetRow::Value, JetRow::Du, JetRow::Dv};
@@ -186,7 +186,7 @@ Points SurfaceSamples::evaluate(const Points& control) const {
           evaluate_element(e, base, result.data() + 3 * rows_ * begin(e));
         }
       },
-      kElementBlock);
+      kSampleBlock);
   return result;
 }
 
@@ -205,7 +205,7 @@ Points SurfaceSamples::pull_back(const Points& forces) const {
           });
         }
       },
-      kElementBlock);
+      kSampleBlock);
   Values result(patches_.base().vertex_count(), 3);
   parallel_for(result.rows(), [&](std::ptrdiff_t first, std::ptrdiff_t last) {
     for (auto v = static_cast<Index>(first); v < static_cast<Index>(last); ++v) {
@@ -264,7 +264,7 @@ Scalars sample_areas(const SurfaceSamples& samples, const Points& jets) {
           }
         }
       },
-      kElementBlock);
+      kSampleBlock);
   return areas;
 }
 
