@@ -4,10 +4,12 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <limits>
+#include <numbers>
 
+#include "batten/dynamics/pressure.h"
 #include "batten/mesh/primitives.h"
 #include "batten/parallel/threads.h"
+#include "batten/refine/refinement.h"
 #include "support/errors.h"
 #include "support/loads.h"
 #include "support/schemes.h"
@@ -249,6 +251,29 @@ TEST(ElasticMotion, RefiningInMidRunChangesNothingThatIsSeen) {
   const SurfacePlace place{30, 0.5, 0.5};
   const Eigen::Vector3d there = fine_next.jet(place_on_refined(surface.patches(), place)).point;
   EXPECT_LE((coarse_next.jet(place).point - there).norm(), 0.01 * surface.diagonal());
+}
+
+/// A cube refined twice has the symmetries of the cube; pressure must not break one of them.
+TEST(ElasticMotion, KeepsTheSymmetryOfABalloon) {
+  const Mesh mesh = cube();
+  const RefinedSurface ball = refine(Topology(mesh), test::kCatmullClark, mesh.points, 2);
+  const ElasticSurface surface(ball.topology, test::kCatmullClark, ball.values);
+  ElasticMotion motion(surface, {std::make_shared<Pressure>(surface, PressureOptions{.pressure = always(40.0)})});
+  ElasticState state = state_at_rest(surface);
+  for (int i = 0; i < 10; ++i) motion.step(state);
+  EXPECT_GT(state.positions.norm(), 1.05 * surface.rest().norm());
+  for (const auto& image :
+       {Eigen::Matrix3d(Eigen::Vector3d(-1.0, 1.0, 1.0).asDiagonal()),
+        Eigen::Matrix3d(Eigen::AngleAxisd(0.5 * std::numbers::pi, Eigen::Vector3d::UnitZ())),
+        Eigen::Matrix3d(Eigen::AngleAxisd(2.0 * std::numbers::pi / 3.0, Eigen::Vector3d(1, 1, 1) / std::sqrt(3.0)))}) {
+    const Points rest = surface.rest() * image.transpose();
+    const Points moved = state.positions * image.transpose();
+    for (Eigen::Index v = 0; v < rest.rows(); ++v) {
+      Eigen::Index partner = 0;
+      (surface.rest().rowwise() - rest.row(v)).rowwise().norm().minCoeff(&partner);
+      EXPECT_LE((state.positions.row(partner) - moved.row(v)).norm(), 1e-10);
+    }
+  }
 }
 
 TEST(ElasticMotion, AdvanceKeepsItsError) {
