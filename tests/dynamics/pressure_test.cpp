@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "batten/dynamics/surface_samples.h"
+#include "batten/parallel/threads.h"
 #include "batten/tessellate/tessellator.h"
 #include "support/errors.h"
 #include "support/forces.h"
@@ -118,6 +119,16 @@ TEST(Pressure, IsTheSameOnTheRefinedBody) {
     const Points points = refinement.apply(closed.points);
     EXPECT_NEAR(test::sum_of(*finer, test::still_at(points)).energy, energy, 1e-4 * std::abs(energy));
   }
+}
+
+TEST(Pressure, HasTheSameBitsForAnyNumberOfThreads) {
+  const Mesh mesh = torus(40, 20);
+  const Pressure pressure(test::body_of(mesh), held(1.5));
+  const auto forces = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return test::force_of(pressure, test::still_at(mesh.points));
+  };
+  EXPECT_EQ(forces(1), forces(2));
 }
 
 TEST(Pressure, RefusesWhatMakesNoSense) {

@@ -44,7 +44,7 @@ class Contact : public Force {
   const ContactOptions& options() const { return options_; }
 
   std::string name() const override { return "contact"; }
-  /// 0.3 microseconds a face, and 2 to 5 for each that is near. Calls the obstacle in the calling thread. Throws
+  /// 0.1 microseconds a face, and 5 for each that is near. Calls the obstacle in the calling thread. Throws
   /// Error(NotFinite, BadArgument) naming the point where distance or gradient is not finite, or the gradient 0.
   void add(const ForceInput& input, ForceSum& sum) const override;
   std::shared_ptr<const Force> refined(const ElasticSurface& body, const ElasticSurface& child) const override;

@@ -33,7 +33,7 @@ struct DragOptions {
 /// The springs are lasting for steps of one length.
 class Drag : public Force {
  public:
-  /// A microsecond a place, and 400 bytes. Throws Error(BadArgument, NotFinite) for options out of range.
+  /// Half a microsecond a place, and 400 bytes. Throws Error(BadArgument, NotFinite) for options out of range.
   explicit Drag(const ElasticSurface& body, DragOptions options = {});
 
   const DragOptions& options() const { return options_; }

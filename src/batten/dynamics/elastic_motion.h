@@ -29,8 +29,8 @@ enum class MotionSolver {
 struct MotionOptions {
   TimeScheme scheme = TimeScheme::BackwardEuler;
   double step = 1.0 / 60.0;  ///< seconds
-  /// A step of a nonlinear body or force solves until (two rounds do for motion; more follow it more closely) no control point moves farther than `tolerance` of the diagonal
-  /// between two solves, but at most so often.
+  /// A step of a nonlinear body or force solves until (two rounds do for motion; more follow it more closely) no
+  /// control point moves farther than `tolerance` of the diagonal between two solves, but at most so often.
   int rounds = 2;
   double tolerance = 1e-6;
   MotionSolver solver = MotionSolver::Auto;

@@ -54,7 +54,7 @@ class Pressure : public Force {
   Points volume_gradient(const Points& positions) const;
 
   std::string name() const override { return "pressure"; }
-  /// 0.2 to 0.5 microseconds a regular face. Throws Error(NotFinite, BadArgument) for what the paths give.
+  /// 0.2 to 0.7 microseconds a regular face. Throws Error(NotFinite, BadArgument) for what the paths give.
   void add(const ForceInput& input, ForceSum& sum) const override;
   std::shared_ptr<const Force> refined(const ElasticSurface& body, const ElasticSurface& child) const override;
 
