@@ -140,7 +140,7 @@ std::string dynamics_section() {
          "faces "
          "turning. The first step factors the system.\n\n" +
          steps.text() +
-         "\nA cube refined 2 and 3 times, four springs, the paper's energy: from rest to within 1e-6 of the "
+         "\nA cube refined 2 and 3 times, four springs, the paper's energy: from rest to within 1e-4 of the "
          "diagonal "
          "of the equilibrium, by `find_equilibrium` and by the paper's formula (31) with steps of 1/30 s, element sums "
          "to level 4 and conjugate gradients without a preconditioner.\n\n" +
