@@ -1,6 +1,7 @@
 #include "batten/dynamics/elastic_surface.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -76,6 +77,18 @@ ElasticSurface::Matrix first_step_of(const SurfacePatches& patches) {
   return matrix;
 }
 
+/// to += what. In place where the entries are the same.
+void add_matrix(const ElasticSurface::Matrix& what, ElasticSurface::Matrix& to) {
+  const bool same = what.nonZeros() == to.nonZeros() &&
+                    std::equal(what.outerIndexPtr(), what.outerIndexPtr() + what.rows() + 1, to.outerIndexPtr()) &&
+                    std::equal(what.innerIndexPtr(), what.innerIndexPtr() + what.nonZeros(), to.innerIndexPtr());
+  if (same) {
+    to.coeffs() += what.coeffs();
+  } else {
+    to += what;
+  }
+}
+
 double quadratic_form(const ElasticSurface::Matrix& matrix, ConstValuesRef values) {
   Values product;
   multiply(matrix, values, product);
@@ -147,7 +160,7 @@ struct ElasticSurface::Parts {
     return rest_in;
   }
 
-  Matrix by_control(const Matrix& of_base) const {
+  Matrix by_control(Matrix of_base) const {
     if (!patches.has_first_step()) return of_base;
     const Matrix half = of_base * first_step;
     const Matrix whole = first_step_transposed * half;
@@ -190,9 +203,10 @@ void ElasticSurface::Parts::measure_lengths(const Points& base_rest, const Progr
     }
     return matrix;
   };
-  const Matrix stretch = add(ShapeEnergyKind::Stretch, material().tension, progress_within(progress, 0.0, 0.4));
+  Matrix stretch = add(ShapeEnergyKind::Stretch, material().tension, progress_within(progress, 0.0, 0.4));
   const Matrix bending = add(ShapeEnergyKind::Bending, material().rigidity, progress_within(progress, 0.4, 1.0));
-  stiffness = by_control(stretch + bending);
+  add_matrix(bending, stretch);
+  stiffness = by_control(std::move(stretch));
 }
 
 void ElasticSurface::Parts::measure_parameters(const Points& base_rest, const Progress& progress) {

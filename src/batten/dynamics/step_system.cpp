@@ -84,8 +84,7 @@ StepSystem::StepSystem(const ElasticSurface& surface, const StepWeights& weights
                        const std::vector<PlaceSprings>& lasting, const HeldPoints& held, MotionSolver solver,
                        double tolerance)
     : held_(held), diagonal_(surface.diagonal()) {
-  const Matrix inertia = weights.mass * surface.mass() + weights.damping * surface.damping();
-  matrix_ = inertia + surface.stiffness();
+  matrix_ = weights.mass * surface.mass() + weights.damping * surface.damping() + surface.stiffness();
   for (const PlaceSprings& springs : lasting) {
     if (springs.rows->rows.rows() > 0) matrix_ += stiffness_of(*springs.rows, springs.stiffness);
   }
@@ -93,9 +92,13 @@ StepSystem::StepSystem(const ElasticSurface& surface, const StepWeights& weights
     pin_stiffness_ = kPinStiffness * mean_diagonal(matrix_);
     with_pins_ = matrix_ + stiffness_of(held.pins(), Scalars::Constant(held.pin_count(), pin_stiffness_));
   }
-  const double mean = mean_diagonal(inertia) > 0.0 ? mean_diagonal(inertia) : 1e-6 * mean_diagonal(matrix_);
-  tolerance_ = tolerance * diagonal_ * std::sqrt(mean);
-  const Matrix block = free_block(held.pin_count() > 0 ? with_pins_ : matrix_, held.free());
+  const double inertia =
+      weights.mass * mean_diagonal(surface.mass()) + weights.damping * mean_diagonal(surface.damping());
+  tolerance_ = tolerance * diagonal_ * std::sqrt(inertia > 0.0 ? inertia : 1e-6 * mean_diagonal(matrix_));
+  const Matrix& whole = held.pin_count() > 0 ? with_pins_ : matrix_;
+  const bool all_free = static_cast<Eigen::Index>(held.free().size()) == whole.rows();
+  const Matrix part = all_free ? Matrix() : free_block(whole, held.free());
+  const Matrix& block = all_free ? whole : part;
   const bool direct = solver == MotionSolver::Direct || (solver == MotionSolver::Auto && block.rows() <= kMostDirect);
   if (block.rows() == 0) return;
   if (!direct) {

@@ -1,5 +1,6 @@
 #include "batten/dynamics/turning_faces.h"
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
@@ -19,7 +20,7 @@ void TurningFaces::add(const FaceElements& elements, const Buffer<double>& gradi
   const bool first = starts_.size() == 1;
   Buffer<std::size_t> starts{0};
   Buffer<Part> parts;
-  parts.reserve(parts_.size() + elements.vertices().size());
+  parts.reserve(std::max(parts_.size(), elements.vertices().size()));  // most are in both
   for (Index e = 0; e < elements.count(); ++e) {
     const std::size_t begin = parts.size();
     if (!first) parts.insert(parts.end(), parts_.begin() + starts_[e], parts_.begin() + starts_[e + 1]);
