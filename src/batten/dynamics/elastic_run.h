@@ -1,6 +1,8 @@
 /// \file A scene in time: its body, forces and supports, step by step.
 #pragma once
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,9 +27,9 @@ SceneMeshes read_scene_meshes(const ElasticScene& scene, const Progress& progres
 /// stopped.
 struct ElasticRunState {
   ElasticState state;
-  Index refined = 0;       ///< how often the control mesh was refined since the start
-  bool at_rest = false;    ///< does not move any more
-  std::uint64_t body = 0;  ///< of which body: a checksum of the rest shape's points and faces
+  std::vector<ElasticState> refined_at;  ///< the state before each refinement of the control mesh
+  bool at_rest = false;                  ///< does not move any more
+  std::uint64_t body = 0;                ///< which body: a checksum of the rest shape's points and faces
 };
 
 /// Writes a state file; doubles are kept bit for bit. Throws Error(FileNotWritable).
@@ -39,9 +41,10 @@ ElasticRunState read_state(const std::string& path);
 struct ElasticRow {
   double time = 0.0;  ///< at its end, seconds
   StepReport step;
-  double speed = 0.0;    ///< root mean square of how far control points moved, per second
-  Index vertices = 0;    ///< control points
-  bool at_rest = false;  ///< does not move any more (SceneRest)
+  MotionMeasure measure;  ///< at its end
+  double speed = 0.0;     ///< root mean square of how far control points moved, per second
+  Index vertices = 0;     ///< control points
+  bool at_rest = false;   ///< does not move any more (SceneRest)
 };
 
 /// One thread at a time.

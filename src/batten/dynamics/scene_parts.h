@@ -1,9 +1,11 @@
 /// \file The parts of a scene made for a body.
 #pragma once
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "batten/dynamics/elastic_run.h"
+#include "batten/error.h"
 
 namespace batten::dynamics {
 
@@ -20,6 +22,10 @@ SceneBody scene_body(const ElasticScene& scene, const SceneMeshes& meshes, const
 /// The scene's options for this body: coefficients that are given a face of the file's mesh are carried to its
 /// children.
 ElasticOptions body_options(const ElasticScene& scene, const SceneMeshes& meshes);
+/// The path of points that are given.
+PointPath point_path(const ScenePath& path);
+/// Where the springs of the scene take hold, in their order.
+std::vector<SurfacePlace> spring_places(const ElasticScene& scene, const ElasticSurface& body);
 std::vector<std::shared_ptr<const Force>> scene_forces(const ElasticScene& scene, const SceneMeshes& meshes,
                                                        const ElasticSurface& body);
 Supports scene_supports(const ElasticScene& scene, const ElasticSurface& body, const Points& start);
