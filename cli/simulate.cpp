@@ -12,6 +12,7 @@
 #include "cli/plots.h"
 #include "cli/signals.h"
 #include "cli/simulation_frames.h"
+#include "cli/simulation_outlines.h"
 #include "cli/surface_output.h"
 
 namespace batten::cli {
@@ -147,32 +148,48 @@ nlohmann::ordered_json report_json(const Simulation& simulation, const Simulatio
   return json;
 }
 
-Subject subject_of(const ElasticRun& run, const Mesh& mesh) {
-  Subject subject;
-  subject.control = &mesh;
-  subject.topology = run.motion().surface().topology();
-  subject.scheme = run.scheme();
-  return subject;
+/// A shape in a picture.
+struct ShownShape {
+  Mesh mesh;
+  double time;
+  std::string caption;
+};
+
+/// Side by side, with springs and obstacles.
+void draw_shapes(const SimulateArguments& arguments, const ElasticRun& run, const std::vector<ShownShape>& shapes,
+                 Job& job) {
+  Eigen::RowVector3d low = shapes.front().mesh.points.colwise().minCoeff();
+  Eigen::RowVector3d high = shapes.front().mesh.points.colwise().maxCoeff();
+  for (const ShownShape& shape : shapes) {
+    low = low.cwiseMin(shape.mesh.points.colwise().minCoeff());
+    high = high.cwiseMax(shape.mesh.points.colwise().maxCoeff());
+  }
+  std::vector<Subject> subjects;
+  for (const ShownShape& shape : shapes) {
+    Subject subject;
+    subject.control = &shape.mesh;
+    subject.topology = run.motion().surface().topology();
+    subject.scheme = run.scheme();
+    subject.lines = outlines_of(run, shape.mesh.points, shape.time, low, high);
+    if (shapes.size() > 1) subject.after_caption = shape.caption;
+    subjects.push_back(std::move(subject));
+  }
+  draw_row(subjects, arguments.picture, job);
 }
 
 /// The last shape, the first and the last, or so many moments.
 void draw_frames(const Simulation& simulation, const SimulationFrames& frames, Job& job) {
-  const PictureArguments& picture = simulation.arguments.picture;
-  const std::size_t panels = simulation.arguments.moments ? static_cast<std::size_t>(*simulation.arguments.moments)
-                                                          : (picture.before_after ? 2 : 1);
+  const SimulateArguments& arguments = simulation.arguments;
+  const std::size_t panels =
+      arguments.moments ? static_cast<std::size_t>(*arguments.moments) : (arguments.picture.before_after ? 2 : 1);
   const std::vector<SimulationFrame>& all = frames.frames();
   const std::size_t count = std::min(panels, all.size());
-  std::vector<Mesh> meshes;
-  std::vector<Subject> subjects;
-  meshes.reserve(count);
+  std::vector<ShownShape> shapes;
   for (std::size_t i = 0; i < count; ++i) {
     const SimulationFrame& frame = all[count > 1 ? i * (all.size() - 1) / (count - 1) : all.size() - 1];
-    meshes.push_back(frames.mesh_of(frame));
-    subjects.push_back(subject_of(simulation.run, meshes.back()));
-    subjects.back().after_caption = count > 1 ? fmt::format("{:.2f} s", frame.time) : "";
+    shapes.push_back({frames.mesh_of(frame), frame.time, fmt::format("{:.2f} s", frame.time)});
   }
-  subjects.back().markers = simulation.run.targets();
-  draw_row(subjects, picture, job);
+  draw_shapes(arguments, simulation.run, shapes, job);
 }
 
 void plot_run(const std::string& path, const ElasticScene& scene, const std::vector<ElasticRow>& rows) {
@@ -188,6 +205,7 @@ void plot_run(const std::string& path, const ElasticScene& scene, const std::vec
 
 /// The static solution.
 int find_shape(const SimulateArguments& arguments, ElasticRun& run, Table& table, Job& job) {
+  const Mesh before = run.mesh();
   const EquilibriumReport found = run.find_equilibrium(ProgressBar("balancing", arguments.common.quiet).callback());
   job.stages.finish("balance");
   const MotionMeasure measure = run.motion().measure(run.state());
@@ -201,9 +219,10 @@ int find_shape(const SimulateArguments& arguments, ElasticRun& run, Table& table
   const std::string written = write_surface({mesh, topology, run.scheme()}, levels, job);
   if (!written.empty()) table.add("written", written);
   if (!arguments.picture.path.empty()) {
-    Subject subject = subject_of(run, mesh);
-    subject.markers = run.targets();
-    draw_row({subject}, arguments.picture, job);
+    std::vector<ShownShape> shapes;
+    if (arguments.picture.before_after) shapes.push_back({before, run.state().time, "where it starts"});
+    shapes.push_back({mesh, run.state().time, "where forces balance"});
+    draw_shapes(arguments, run, shapes, job);
     job.stages.finish("picture");
   }
   job.print(table);

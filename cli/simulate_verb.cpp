@@ -6,6 +6,9 @@ namespace batten::cli {
 
 namespace {
 
+const Names<Coloring> kSimulationColorings{
+    {"mean", Coloring::Mean}, {"gaussian", Coloring::Gaussian}, {"zebra", Coloring::Zebra}};
+
 /// Refuses what has no meaning for one shape, and several files on standard output.
 void check_simulation(const CLI::App& verb, const SimulateArguments& arguments) {
   if (arguments.equilibrium)
@@ -38,6 +41,9 @@ void add_simulate(CLI::App& app, SimulateArguments& arguments, int& status) {
   verb.add_option("--resume", arguments.resume, "go on where an earlier run of this scene ended")->option_text("STATE");
   add_output_file(verb, "--plot", arguments.plot, "plot the energies against time", {".png", ".svg"});
   add_picture(verb, arguments.picture);
+  add_range(verb, arguments.picture);
+  add_choice(verb, "--color", arguments.picture.coloring, kSimulationColorings,
+             "colour the surface by its curvature, or draw bands that it mirrors");
   verb.add_option("--moments", arguments.moments,
                   "with --picture: so many frames side by side, first and last among "
                   "them, instead of the last alone")

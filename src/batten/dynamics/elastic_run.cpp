@@ -6,7 +6,9 @@
 #include <string>
 #include <utility>
 
+#include "batten/dynamics/nearest_springs.h"
 #include "batten/dynamics/scene_parts.h"
+#include "batten/dynamics/spring.h"
 #include "batten/error.h"
 #include "batten/io/io.h"
 #include "batten/mesh/moved_mesh.h"
@@ -64,9 +66,8 @@ constexpr double kTimeShare = 1e-6;
 struct ElasticRun::Parts {
   ElasticScene scene;
   Scheme scheme;
-  Mesh mesh;                          ///< of now: tags and attributes; the points are those of the rest shape
-  std::vector<Topology> topologies;   ///< of all control meshes so far
-  std::vector<SurfacePlace> springs;  ///< where springs took hold at the start
+  Mesh mesh;                         ///< of now: tags and attributes; the points are those of the rest shape
+  std::vector<Topology> topologies;  ///< of all control meshes so far
   ElasticMotion motion;
   ElasticRunState run;
 
@@ -118,13 +119,8 @@ ElasticRun::ElasticRun(const ElasticScene& scene, const SceneMeshes& meshes, con
   run.state.positions = parts.start;
   run.state.velocities = Points::Zero(parts.start.rows(), 3).rowwise() + scene.velocity.transpose();
   run.body = body_checksum(parts.topology, parts.mesh.points);
-  parts_ = std::make_unique<Parts>(Parts{scene,
-                                         parts.scheme,
-                                         std::move(parts.mesh),
-                                         {parts.topology},
-                                         dynamics::spring_places(scene, body),
-                                         std::move(motion),
-                                         std::move(run)});
+  parts_ = std::make_unique<Parts>(
+      Parts{scene, parts.scheme, std::move(parts.mesh), {parts.topology}, std::move(motion), std::move(run)});
 }
 
 ElasticRun::~ElasticRun() = default;
@@ -161,15 +157,28 @@ Points ElasticRun::refined_points(ConstValuesRef points, Index refined) const {
   return batten::refine(parts_->topologies[static_cast<std::size_t>(refined)], parts_->scheme, points, levels).values;
 }
 
-Points ElasticRun::targets() const {
-  std::vector<Eigen::Vector3d> all;
-  for (const SceneForce& force : parts_->scene.forces) {
-    if (const auto* spring = std::get_if<SceneSpring>(&force))
-      all.push_back(dynamics::point_path(spring->to)(parts_->run.state.time));
+Points ElasticRun::spring_lines(const Points& positions, double time) const {
+  std::vector<Eigen::Vector3d> ends;
+  for (const auto& force : motion().forces()) {
+    if (const auto* springs = dynamic_cast<const PointSprings*>(force.get())) {
+      std::vector<SurfacePlace> places;
+      for (const PointSprings::Spring& spring : springs->springs()) places.push_back(spring.place);
+      const Points points = place_rows(motion().surface().patches(), places).rows * positions;
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        ends.emplace_back(points.row(static_cast<Eigen::Index>(i)).transpose());
+        ends.push_back(springs->springs()[i].target(time));
+      }
+    } else if (const auto* nearest = dynamic_cast<const NearestSprings*>(force.get())) {
+      const std::vector<NearestPoint>& attached = nearest->attach(positions);
+      for (std::size_t i = 0; i < attached.size(); ++i) {
+        ends.push_back(attached[i].point);
+        ends.emplace_back(nearest->points().row(static_cast<Eigen::Index>(i)).transpose());
+      }
+    }
   }
-  Points targets(static_cast<Eigen::Index>(all.size()), 3);
-  for (Eigen::Index i = 0; i < targets.rows(); ++i) targets.row(i) = all[static_cast<std::size_t>(i)].transpose();
-  return targets;
+  Points lines(static_cast<Eigen::Index>(ends.size()), 3);
+  for (Eigen::Index i = 0; i < lines.rows(); ++i) lines.row(i) = ends[static_cast<std::size_t>(i)].transpose();
+  return lines;
 }
 
 ElasticRow ElasticRun::step(const Progress& progress) {

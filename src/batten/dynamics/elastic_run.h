@@ -75,8 +75,9 @@ class ElasticRun {
   /// Control points of the mesh refined `refined` times as those of the mesh of now: the same surface. Throws
   /// Error(BadShape).
   Points refined_points(ConstValuesRef points, Index refined) const;
-  /// Where all springs pull to now: a row each.
-  Points targets() const;
+  /// All springs as lines: row 2 i where spring i takes hold of the surface with these control points, row 2 i + 1
+  /// where it pulls to at that time. Throws Error(BadShape).
+  Points spring_lines(const Points& positions, double time) const;
 
   /// One step, after a refinement if one is due. Throws what ElasticMotion throws; then the run is as before.
   ElasticRow step(const Progress& progress = {});
