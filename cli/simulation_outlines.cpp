@@ -1,5 +1,6 @@
 #include "cli/simulation_outlines.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>

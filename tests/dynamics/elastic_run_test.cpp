@@ -178,14 +178,17 @@ TEST(ElasticRun, EndsAtRestAndRefinesThere) {
   EXPECT_LT(run.state().time, 50.0);
   ElasticRun found = run_of(kHanging);
   EXPECT_TRUE(found.find_equilibrium().converged);
-  EXPECT_NEAR(found.state().positions(12, 2), run.state().positions(12, 2), 0.02);
+  const auto middle = [](const ElasticRun& at) {
+    return LimitMatrix(at.motion().surface().topology(), at.scheme()).apply(at.state().positions)(12, 2);
+  };
+  EXPECT_NEAR(middle(run), middle(found), 0.02);
 }
 
 TEST(ElasticRun, CarriesCoefficientsToTheFacesOfARefinedMesh) {
   std::string list = "[";
   for (int i = 0; i < 16; ++i) list += (i == 0 ? "" : ",") + std::to_string(i);
-  ElasticRun coarse = run_of(R"("material": {"density": )" + list + "]}");
-  ElasticRun fine = run_of(R"("refine": 2, "material": {"density": )" + list + "]}");
+  ElasticRun coarse = run_of(R"("boundary": "edge-and-corner", "material": {"density": )" + list + "]}");
+  ElasticRun fine = run_of(R"("boundary": "edge-and-corner", "refine": 2, "material": {"density": )" + list + "]}");
   const auto center = [](const ElasticRun& run) {
     const Points weighted = run.motion().surface().mass() * run.state().positions;
     return Eigen::RowVector4d(run.motion().surface().mass().sum(), weighted.col(0).sum(), weighted.col(1).sum(), 0.0);
