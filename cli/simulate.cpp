@@ -93,12 +93,12 @@ void add_rows(const Simulation& simulation, double used, Table& table) {
   table.add("run", fmt::format("{}, {:.4g} s simulated in {:.3g} s",
                                count_of(static_cast<std::int64_t>(rows.size()), "step", "steps"), seconds, used));
   if (rows.empty()) return;
-  const auto unsettled =
-      std::count_if(rows.begin(), rows.end(), [](const ElasticRow& row) { return !row.step.settled; });
-  if (unsettled > 0) {
-    table.add("", fmt::format("{} did not settle within {}", count_of(unsettled, "step", "steps"),
-                              count_of(simulation.run.scene().time.motion.rounds, "round", "rounds")));
-  }
+  const auto rounds = std::max_element(
+      rows.begin(), rows.end(), [](const ElasticRow& a, const ElasticRow& b) { return a.step.rounds < b.step.rounds; });
+  const auto change = std::max_element(
+      rows.begin(), rows.end(), [](const ElasticRow& a, const ElasticRow& b) { return a.step.change < b.step.change; });
+  table.add("solves", fmt::format("at most {} a step, the last moved no point by more than {:.3g}", rounds->step.rounds,
+                                  change->step.change));
   const ElasticRow& last = rows.back();
   table.add("energy", fmt::format("kinetic {:.4g}, elastic {:.4g}, of forces {:.4g}", last.measure.kinetic_energy,
                                   last.measure.elastic_energy, last.measure.force_energy));

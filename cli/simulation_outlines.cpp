@@ -26,8 +26,8 @@ void add_mesh(const Mesh& added, Mesh& lines) {
 
 /// A grid on the plane, some wider than what lies over it.
 Mesh plane_lines(const SceneObstacle& plane, const RowVector3d& low, const RowVector3d& high) {
-  constexpr Index kCells = 8;
-  constexpr double kWider = 0.7;
+  constexpr Index kCells = 6;
+  constexpr double kWider = 0.6;
   const Eigen::Vector3d normal = plane.normal.normalized();
   Eigen::Index least = 0;
   normal.cwiseAbs().minCoeff(&least);
