@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "batten/dynamics/scene.h"
+#include "batten/error.h"
 #include "fuzz/memory.h"
 
 namespace batten::fuzz {
