@@ -26,7 +26,7 @@ TEST(JsonPlace, IsWrittenAsAPath) {
 }
 
 TEST(JsonPlace, NamesWhatIsNotJson) {
-  expect_fault(R"({"a": [1, {"b": nul}]})", "a[1].b: not JSON: syntax error");
+  expect_fault(R"({"a": [1, {"b": nul}]})", "a[1].b: not JSON: parse error");
   expect_fault(R"({"a": [1, 1e999]})", "a[1]: not JSON: number overflow");
 }
 

@@ -34,7 +34,7 @@ void read_start(const JsonPlace& document, ElasticScene& scene) {
 }
 
 std::string required_file(const JsonPlace& place) {
-  const std::string file = place.text();
+  std::string file = place.text();
   if (file.empty()) place.fail("the name of a mesh file is expected here");
   return file;
 }
