@@ -275,11 +275,17 @@ int run_simulate(const SimulateArguments& arguments) {
   const CommonArguments& common = arguments.common;
   ElasticScene scene;
   SceneMeshes meshes;
+  std::vector<std::string> notes;
   const auto read = [&] {
     scene = read_scene(common.input);
-    meshes = read_scene_meshes(scene, ProgressBar("reading", common.quiet).callback());
+    meshes = read_scene_meshes(scene, ProgressBar("reading", common.quiet).callback(), &notes);
+    CommonArguments mesh = common;
+    mesh.input = scene.mesh;
+    name_from_output(mesh, meshes.rest);
   };
   Job job("simulate", common, read, UpAxis::Auto);
+  job.notes = notes;
+  say_notes(notes, common.quiet);
   if (job.up == UpAxis::Auto) job.up = scene.output.up.value_or(find_up_axis(meshes.rest, file_format(scene.mesh)));
   scene.time.seconds = arguments.seconds.value_or(scene.time.seconds);
   scene.time.motion.step = arguments.step.value_or(scene.time.motion.step);

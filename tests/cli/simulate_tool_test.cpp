@@ -132,6 +132,9 @@ TEST_F(SimulateTool, RefusesOptionsWithoutMeaning) {
     const Outcome result = run("simulate s.json " + std::string(options));
     EXPECT_EQ(result.status, 2) << options << "\n" << result.err;
   }
+  const Outcome endless = run("simulate s.json --step 1e-9");
+  EXPECT_EQ(endless.status, 1);
+  EXPECT_NE(endless.err.find("s.json: time: these are more than ten million steps"), std::string::npos) << endless.err;
   write("old.state", "no state");
   const Outcome result = run("simulate s.json --resume old.state");
   EXPECT_EQ(result.status, 1);

@@ -23,7 +23,7 @@ void require_sound(const ElasticScene& scene) {
   require(!scene.mesh.empty(), "a scene without a mesh");
   require(scene.move.allFinite() && scene.velocity.allFinite(), "a start that is not finite");
   const SceneTime& time = scene.time;
-  require(time.seconds >= 0.0 && time.motion.step > 0.0 && time.seconds / time.motion.step <= 1e8, "too many steps");
+  require(time.seconds >= 0.0 && time.motion.step > 0.0 && time.seconds / time.motion.step <= 1e7, "too many steps");
   for (const double density : scene.body.material.density) require(density >= 0.0, "a negative density");
   for (const SceneForce& force : scene.forces) {
     if (const auto* spring = std::get_if<SceneSpring>(&force))

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -18,10 +19,10 @@
 
 namespace batten {
 
-SceneMeshes read_scene_meshes(const ElasticScene& scene, const Progress& progress) {
+SceneMeshes read_scene_meshes(const ElasticScene& scene, const Progress& progress, std::vector<std::string>* notes) {
   SceneMeshes meshes;
   const auto read = [&](const std::string& place, const std::string& path) {
-    return dynamics::made_at(scene, place, [&] { return read_mesh(path, "", progress); });
+    return dynamics::made_at(scene, place, [&] { return read_mesh(path, "", progress, notes); });
   };
   meshes.rest = read("mesh", scene.mesh);
   if (!scene.start.empty()) meshes.start = read("start.mesh", scene.start);
@@ -106,6 +107,8 @@ bool ElasticRun::Parts::is_at_rest(const ElasticRow& row) const {
 }
 
 ElasticRun::ElasticRun(const ElasticScene& scene, const SceneMeshes& meshes, const Progress& progress) {
+  if (const std::string wrong = dynamics::wrong_steps(scene.time); !wrong.empty())
+    throw Error(ErrorCode::BadArgument, scene.name + ": time: " + wrong);
   dynamics::SceneBody parts = dynamics::scene_body(scene, meshes, progress);
   const ElasticSurface body = dynamics::made_at(scene, "material", [&] {
     return ElasticSurface(parts.topology, parts.scheme, parts.mesh.points, dynamics::body_options(scene, meshes),
@@ -143,7 +146,8 @@ bool ElasticRun::done() const {
 Index ElasticRun::frame() const {
   const SceneTime& time = parts_->scene.time;
   const double frames = parts_->scene.output.frames_per_second;
-  return static_cast<Index>(std::floor((parts_->run.state.time + kTimeShare * time.motion.step) * frames));
+  const double number = std::floor((parts_->run.state.time + kTimeShare * time.motion.step) * frames);
+  return static_cast<Index>(std::min(number, double{std::numeric_limits<Index>::max()}));
 }
 
 Mesh ElasticRun::mesh() const { return with_points(parts_->mesh, parts_->run.state.positions); }

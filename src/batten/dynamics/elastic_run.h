@@ -20,8 +20,10 @@ struct SceneMeshes {
   std::vector<Points> clouds;  ///< of the nearest springs that name a file, in their order
 };
 
-/// Reads them. Errors name the scene and the place in it besides. Throws what read_mesh() throws.
-SceneMeshes read_scene_meshes(const ElasticScene& scene, const Progress& progress = {});
+/// Reads them. Errors name the scene and the place in it besides. notes: as of read_mesh(). Throws what read_mesh()
+/// throws.
+SceneMeshes read_scene_meshes(const ElasticScene& scene, const Progress& progress = {},
+                              std::vector<std::string>* notes = nullptr);
 
 /// All that a run depends on besides its scene: a run that goes on from here gives the same bits as one that was never
 /// stopped.
@@ -50,8 +52,8 @@ struct ElasticRow {
 /// One thread at a time.
 class ElasticRun {
  public:
-  /// Builds all parts. Throws what ElasticSurface, the forces and ElasticMotion throw, and Error(BadShape) for a start
-  /// mesh with other faces; errors name the scene and the part.
+  /// Builds all parts. Throws what ElasticSurface, the forces and ElasticMotion throw, Error(BadShape) for a start mesh
+  /// with other faces, Error(BadArgument) for more than ten million steps; errors name the scene and the part.
   ElasticRun(const ElasticScene& scene, const SceneMeshes& meshes, const Progress& progress = {});
   explicit ElasticRun(const ElasticScene& scene, const Progress& progress = {})
       : ElasticRun(scene, read_scene_meshes(scene), progress) {}

@@ -3,14 +3,13 @@
 #include <string>
 
 #include "batten/dynamics/scene_json.h"
+#include "batten/dynamics/scene_parts.h"
 
 namespace batten::dynamics {
 
 namespace {
 
-/// More steps or frames than this are a slip of the pen.
-constexpr double kMostSteps = 1e8;
-constexpr double kMostFrames = 1e6;
+constexpr double kMostFrames = 1e6;  // a second
 
 void set_coefficient(const JsonPlace& material, const char* key, std::vector<double>& target) {
   if_has(material, key, [&](const JsonPlace& place) {
@@ -101,6 +100,12 @@ void refine_from_json(const JsonPlace& place, SceneTime& time) {
 
 }  // namespace
 
+std::string wrong_steps(const SceneTime& time) {
+  constexpr double kMostSteps = 1e7;
+  const bool few = time.seconds >= 0.0 && time.seconds / time.motion.step <= kMostSteps;
+  return few ? "" : "these are more than ten million steps; give fewer seconds or a longer step";
+}
+
 ElasticOptions body_from_json(const JsonPlace& document) {
   ElasticOptions body;
   if_has(document, "material", [&](const JsonPlace& place) { body.material = material_from_json(place); });
@@ -114,8 +119,7 @@ SceneTime time_from_json(const JsonPlace& place) {
   SceneTime time;
   set_not_negative(place, "seconds", time.seconds);
   motion_from_json(place, time.motion);
-  if (time.seconds / time.motion.step > kMostSteps)
-    place.fail("these are more than a hundred million steps; give fewer seconds or a longer step");
+  if (const std::string wrong = wrong_steps(time); !wrong.empty()) place.fail(wrong);
   set_positive(place, "step_error", time.step_error);
   if_has(place, "refine", [&](const JsonPlace& refine) { refine_from_json(refine, time); });
   if_has(place, "until_rest", [&](const JsonPlace& until) { time.until_rest = until.truth(); });

@@ -9,6 +9,9 @@
 
 namespace batten::dynamics {
 
+/// What is wrong with the number of steps; empty where nothing is.
+std::string wrong_steps(const SceneTime& time);
+
 /// The control mesh of the rest shape and where it starts, refined as the scene says.
 struct SceneBody {
   Topology topology;
