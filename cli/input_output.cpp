@@ -25,17 +25,16 @@ namespace batten::cli {
 Mesh read_file(const std::string& path, const std::string& format, bool quiet, std::vector<std::string>* notes) {
   std::vector<std::string> found;
   Mesh mesh = read_mesh(path, format, ProgressBar("reading", quiet).callback(), &found);
-  for (const std::string& text : found) {
-    if (!quiet) fmt::print(stderr, "batten: {}\n", text);
-    if (notes != nullptr) notes->push_back(text);
-  }
+  say_notes(found, quiet);
+  if (notes != nullptr) notes->insert(notes->end(), found.begin(), found.end());
   return mesh;
 }
 
-namespace {
+void say_notes(const std::vector<std::string>& notes, bool quiet) {
+  if (quiet) return;
+  for (const std::string& note : notes) fmt::print(stderr, "batten: {}\n", note);
+}
 
-/// Material files, and images after which materials are named, have names relative to the folder of the mesh file.
-/// Gives those that are there the names that they have from the output's folder.
 void name_from_output(const CommonArguments& arguments, Mesh& mesh) {
   if (arguments.output.empty() || arguments.input == "-") return;
   const auto rename = [&](std::string& name) {
@@ -49,8 +48,6 @@ void name_from_output(const CommonArguments& arguments, Mesh& mesh) {
     if (group.keyword == "usemtl" && io::is_image_name(group.name)) rename(group.name);
   }
 }
-
-}  // namespace
 
 Mesh read_input(const CommonArguments& arguments, nlohmann::ordered_json* repairs, std::vector<std::string>* notes) {
   Mesh mesh = read_file(arguments.input, arguments.input_format, arguments.quiet, notes);

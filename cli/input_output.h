@@ -15,6 +15,9 @@ Mesh read_file(const std::string& path, const std::string& format, bool quiet,
 /// `repairs` (left null without --repair) for the report; `notes` as above.
 Mesh read_input(const CommonArguments& arguments, nlohmann::ordered_json* repairs = nullptr,
                 std::vector<std::string>* notes = nullptr);
+/// Material files, and images after which materials are named, have names relative to the folder of the mesh file.
+/// Gives those that are there the names that they have from the output's folder.
+void name_from_output(const CommonArguments& arguments, Mesh& mesh);
 /// Throws where there are points alone, which make no surface.
 void require_surface(const CommonArguments& arguments, const Mesh& mesh);
 /// That of --up, or find_up_axis of the mesh, which is the input's.
@@ -24,6 +27,8 @@ void write_output(const CommonArguments& arguments, const Mesh& mesh, UpAxis up)
 /// What the output's format does not keep of the mesh, which is also printed on stderr unless quiet; nothing without an
 /// output.
 std::vector<std::string> tell_losses(const CommonArguments& arguments, const Mesh& mesh);
+/// Says on stderr what readers skipped, unless quiet.
+void say_notes(const std::vector<std::string>& notes, bool quiet);
 /// Says on stderr what a file lacks, unless quiet; nothing where it lacks nothing.
 void say_losses(const std::string& path, const std::vector<std::string>& losses, bool quiet);
 /// The mesh's own scheme, overruled by the options.

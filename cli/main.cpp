@@ -25,6 +25,7 @@ struct Verbs {
   TextureArguments texture;
   MorphArguments morph;
   MedialArguments medial;
+  SimulateArguments simulate;
   RepairArguments repair;
 };
 
@@ -53,6 +54,7 @@ int run(int argc, char** argv) {
   add_sharpen(app, verbs.sharpen, status);
   add_bands(app, verbs.bands, status);
   add_morph(app, verbs.morph, status);
+  add_simulate(app, verbs.simulate, status);
   add_medial(app, verbs.medial, status);
   add_repair(app, verbs.repair, status);
   add_info(app, verbs.info, status);

@@ -16,6 +16,7 @@ struct Subject {
   int levels = -1;            ///< refinement before the limit positions; -1: as many as make the picture smooth
   bool flat = false;          ///< as it is, not its surface
   bool draw_control = false;  ///< as lines
+  Mesh lines;                 ///< its edges are drawn too; faces may have two corners
   Points markers = Points(0, 3);
   double marker_radius = 0.0;       ///< in the mesh's unit; 0: the renderer's choice
   const Points* targets = nullptr;  ///< of the vertices, for Coloring::Error

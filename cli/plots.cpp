@@ -79,7 +79,25 @@ void plot_bands(const std::string& path, const std::vector<Band>& bands, const s
   write(path, plot);
 }
 
+void plot_energies(const std::string& path, const std::string& title, const EnergyCurves& curves) {
+  Plot plot;
+  plot.title = title;
+  plot.x_label = "seconds";
+  plot.y_label = "energy";
+  std::vector<double> sum = curves.kinetic;
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += curves.elastic[i] + curves.forces[i];
+  plot.lines = {{"kinetic", curves.times, curves.kinetic},
+                {"elastic", curves.times, curves.elastic},
+                {"of forces", curves.times, curves.forces},
+                {"sum", curves.times, sum}};
+  write(path, plot);
+}
+
 #else
+
+void plot_energies(const std::string& /*path*/, const std::string& /*title*/, const EnergyCurves& /*curves*/) {
+  throw Error(ErrorCode::NotAvailable, "this build has no plots; configure with BATTEN_WITH_RENDER=ON");
+}
 
 void plot_bands(const std::string& /*path*/, const std::vector<Band>& /*bands*/, const std::vector<double>& /*sizes*/,
                 const std::vector<double>& /*gains*/) {

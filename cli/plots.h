@@ -18,4 +18,15 @@ void plot_methods(const std::string& path, const std::vector<MethodResult>& resu
 void plot_bands(const std::string& path, const std::vector<Band>& bands, const std::vector<double>& sizes,
                 const std::vector<double>& gains);
 
+/// Energies at times in seconds.
+struct EnergyCurves {
+  std::vector<double> times;
+  std::vector<double> kinetic;
+  std::vector<double> elastic;
+  std::vector<double> forces;
+};
+
+/// The energies of a body and of the forces on it, and their sum, against time.
+void plot_energies(const std::string& path, const std::string& title, const EnergyCurves& curves);
+
 }  // namespace batten::cli

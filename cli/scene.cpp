@@ -225,22 +225,24 @@ void add_sharpness(const Subject& subject, const Topology& topology, bool flat, 
   if (!arguments.range) scene.scale.low = 0.0;
 }
 
-/// Adds the control mesh as lines without numbers.
-void add_control(const Mesh& control, Scene& scene) {
+/// Adds the edges of a mesh, such as the control mesh, as lines without numbers.
+void add_lines(const Mesh& added, Scene& scene) {
+  if (added.face_count() == 0) return;
   if (scene.lines.face_count() == 0) {
-    scene.lines = bare(control);
+    scene.lines = bare(added);
     return;
   }
   Mesh& lines = scene.lines;
   const Index first = lines.vertex_count();
   const auto old = static_cast<Eigen::Index>(lines.face_count());
-  Points both(first + control.vertex_count(), 3);
-  both << lines.points, control.points;
+  Points both(first + added.vertex_count(), 3);
+  both << lines.points, added.points;
   lines.points = std::move(both);
   const Index corners = lines.face_offsets.back();
-  for (const Index v : control.face_vertices) lines.face_vertices.push_back(first + v);
-  for (std::size_t f = 1; f < control.face_offsets.size(); ++f)
-    lines.face_offsets.push_back(corners + control.face_offsets[f]);
+  for (const Index v : added.face_vertices) lines.face_vertices.push_back(first + v);
+  for (std::size_t f = 1; f < added.face_offsets.size(); ++f)
+    lines.face_offsets.push_back(corners + added.face_offsets[f]);
+  if (scene.line_scalars.size() == 0) return;
   scene.line_scalars.conservativeResize(lines.face_count());
   scene.line_scalars.tail(lines.face_count() - old).setConstant(std::numeric_limits<double>::quiet_NaN());
 }
@@ -282,7 +284,8 @@ Scene scene_of(const Subject& subject, const PictureArguments& arguments, bool q
     if (coloring == Coloring::Sharpness) add_sharpness(subject, topology, flat, arguments, scene);
   }
   if (subject.numbers.size() > 0) add_numbers(subject, arguments, scene);
-  if (subject.draw_control) add_control(*subject.control, scene);
+  if (subject.draw_control) add_lines(*subject.control, scene);
+  add_lines(subject.lines, scene);
   return scene;
 }
 

@@ -5,16 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "batten/nearest_word.h"
 #include "cli/usage_error.h"
 
 namespace batten::cli {
-
-/// The word that `word` most likely stands for: the start of one, or the one with the fewest letters to change, insert,
-/// drop or swap, at most a third of them. Empty if none is near.
-std::string nearest_word(const std::string& word, const std::vector<std::string>& words);
-
-/// " (did you mean WORD?)", or nothing if no word is near.
-std::string suggestion(const std::string& word, const std::vector<std::string>& words);
 
 /// One line on what is wrong with the words that `app` could not parse.
 std::string usage_text(const CLI::App& app, const CLI::ParseError& error);

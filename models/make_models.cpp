@@ -16,6 +16,7 @@ int main(int count, char** words) {
     std::vector<batten::models::Model> models = batten::models::all_models();
     for (batten::models::Model& model : batten::models::morph_models()) models.push_back(std::move(model));
     for (batten::models::Model& model : batten::models::broken_models()) models.push_back(std::move(model));
+    for (batten::models::Model& model : batten::models::elastic_models()) models.push_back(std::move(model));
     for (const batten::models::Model& model : models)
       batten::write_mesh(std::string(words[1]) + "/" + model.name + ".obj", model.mesh);
     for (const batten::models::MedialSample& sample : batten::models::medial_models())

@@ -58,6 +58,9 @@ std::vector<Model> morph_models();
 /// Meshes without a surface, for `batten repair`.
 std::vector<Model> broken_models();
 
+/// For `batten simulate`: a sphere of 98 vertices, an upright flag, a crowned panel, and that panel with a dent.
+std::vector<Model> elastic_models();
+
 MedialModel medial_slab();  ///< a bent plate, 5 by 8 atoms
 MedialModel medial_tube();  ///< a strip along three quarters of a circle, thickest in its middle, 3 by 15 atoms
 MedialModel medial_bean();  ///< an s-rep of 20 lines and 3 steps, bent like a kidney

@@ -29,7 +29,7 @@ const Arrows kArrows = {{"parallel", {}},
                         {"energy", {"surface"}},
                         {"interpolate", {"energy", "solve"}},
                         {"expand", {"interpolate", "nearest", "tessellate"}},
-                        {"dynamics", {"energy", "solve", "nearest"}},
+                        {"dynamics", {"energy", "solve", "nearest", "io"}},
                         {"fit", {"dynamics", "interpolate", "tessellate"}},
                         {"medial", {"interpolate", "tessellate", "io"}},
                         {"volume", {"fit"}}};

@@ -180,24 +180,11 @@ TEST(MorphSequence, ReachesTheEndForRhoOneWhereCentroidsAreAligned) {
   EXPECT_LT(((stuck - ends.to).rowwise() - Eigen::RowVectorXd(offset.row(0))).cwiseAbs().maxCoeff(), 1e-9);
 }
 
-TEST(MorphConnectivity, MayStartFacesElsewhereAndNothingElse) {
-  const Mesh mesh = cube();
-  test::Faces faces = test::faces_of(mesh);
-  std::rotate(faces[2].begin(), faces[2].begin() + 1, faces[2].end());
-  EXPECT_NO_THROW(require_same_connectivity(mesh, test::with_faces(mesh, faces)));
-  std::swap(faces[3][0], faces[3][1]);
-  io_tests::expect_error([&] { require_same_connectivity(mesh, test::with_faces(mesh, faces)); }, ErrorCode::BadShape,
-                         "face 3 joins");
-  io_tests::expect_error([&] { require_same_connectivity(mesh, octahedron()); }, ErrorCode::BadShape, "8 vertices");
-  io_tests::expect_error([&] { require_same_connectivity(mesh, test::without_face(mesh, 0)); }, ErrorCode::BadShape,
-                         "6 faces");
-}
-
 TEST(MorphSurface, IsTheSurfaceOfTheMorphAtEveryTime) {
   for (const Mesh& mesh : shapes()) {
     const Ends ends(mesh);
     const Morph morph(ends.series, ends.from, ends.to, {1, 3});
-    const MorphSurface animated = morph_surface(ends.topology, {}, mesh, morph, 2, 6, 2.0);
+    const MovingSurface animated = morph_surface(ends.topology, {}, mesh, morph, 2, 6, 2.0);
     EXPECT_EQ(animated.targets.times.front(), 0.0);
     EXPECT_EQ(animated.targets.times.back(), 2.0);
     ASSERT_EQ(animated.targets.times.size(), 7U);  // the knots are among the frames
@@ -219,7 +206,7 @@ TEST(MorphSurface, HasExactNormalsAtTheKnots) {
   const Mesh mesh = torus(9, 7);
   const Ends ends(mesh);
   const Morph morph(ends.series, ends.from, ends.to, {1, 3, MorphOrder::LowLast});
-  const MorphSurface animated = morph_surface(ends.topology, {}, mesh, morph, 1, 3, 1.0);
+  const MovingSurface animated = morph_surface(ends.topology, {}, mesh, morph, 1, 3, 1.0);
   for (std::size_t k = 0; k < animated.targets.times.size(); ++k) {
     Mesh control = mesh;
     control.points = morph.at(animated.targets.times[k]);

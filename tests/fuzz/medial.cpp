@@ -31,7 +31,7 @@ void check(std::string_view text) {
     require(error.what()[0] != '\0', "an error without words");
     return;
   }
-  const MedialModel again = medial::model_from_text(kName, medial::json_text(medial::figures_to_json(model)));
+  const MedialModel again = medial::model_from_text(kName, io::json_text(medial::figures_to_json(model)));
   require(same(model, again), "another model when it is written and read again");
   try {
     const MedialBoundary boundary = medial_boundary(model);

@@ -20,6 +20,7 @@
 #include "../../models/ball.cpp"
 #include "../../models/blocks.cpp"
 #include "../../models/broken.cpp"
+#include "../../models/elastic.cpp"
 #include "../../models/field.cpp"
 #include "../../models/medial.cpp"
 #include "../../models/pipes.cpp"
@@ -194,6 +195,7 @@ TEST(Models, FilesAreWhatTheGeneratorMakes) {
   std::vector<models::Model> all = made();
   for (const models::Model& broken : models::broken_models()) all.push_back(broken);
   for (const models::Model& morphed : models::morph_models()) all.push_back(morphed);
+  for (const models::Model& elastic : models::elastic_models()) all.push_back(elastic);
   for (const models::Model& expected : all) {
     const Mesh file = read_mesh(std::string(BATTEN_SOURCE_DIR) + "/models/" + expected.name + ".obj");
     ASSERT_EQ(file.vertex_count(), expected.mesh.vertex_count()) << expected.name;

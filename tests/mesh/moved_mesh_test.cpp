@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "batten/error.h"
 #include "batten/mesh/primitives.h"
+#include "support/errors.h"
+#include "support/shapes.h"
 
 namespace batten {
 namespace {
@@ -30,6 +34,19 @@ TEST(WithPoints, KeepsAllButTheOldNormals) {
   ASSERT_EQ(moved.attributes.size(), 1U);
   EXPECT_EQ(moved.attributes[0].name, "color");
   EXPECT_THROW(with_points(mesh, Points::Zero(3, 3)), Error);
+}
+
+TEST(SameConnectivity, MayStartFacesElsewhereAndNothingElse) {
+  const Mesh mesh = cube();
+  test::Faces faces = test::faces_of(mesh);
+  std::rotate(faces[2].begin(), faces[2].begin() + 1, faces[2].end());
+  EXPECT_NO_THROW(require_same_connectivity(mesh, test::with_faces(mesh, faces)));
+  std::swap(faces[3][0], faces[3][1]);
+  test::expect_error([&] { require_same_connectivity(mesh, test::with_faces(mesh, faces)); }, ErrorCode::BadShape,
+                     "face 3 joins");
+  test::expect_error([&] { require_same_connectivity(mesh, octahedron()); }, ErrorCode::BadShape, "8 vertices");
+  test::expect_error([&] { require_same_connectivity(mesh, test::without_face(mesh, 0)); }, ErrorCode::BadShape,
+                     "6 faces");
 }
 
 }  // namespace

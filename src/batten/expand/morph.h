@@ -67,8 +67,4 @@ struct MorphSequenceOptions {
 std::vector<Values> morph_sequence(const MeshSeries& series, ConstValuesRef from, ConstValuesRef to,
                                    const MorphSequenceOptions& options = {}, const Progress& progress = {});
 
-/// Throws Error(BadShape), naming the first difference, unless both have the same number of vertices and the same faces
-/// in the same order. A face may start at another of its vertices.
-void require_same_connectivity(const Mesh& a, const Mesh& b);
-
 }  // namespace batten

@@ -3,10 +3,16 @@
 #include <string>
 #include <string_view>
 
-#include "batten/medial/json_place.h"
+#include "batten/io/json_place.h"
 #include "batten/medial/medial_model.h"
 
 namespace batten::medial {
+
+using io::Json;
+using io::JsonPlace;
+
+/// "line 3, step 1, UpSpoke, Direction", from the steps that lead from the root. Empty at the root.
+std::string place_text(const std::vector<io::JsonStep>& steps);
 
 /// A whole file of either format; `name` is what errors call it. Throws what read_medial() does.
 MedialModel model_from_text(const std::string& name, std::string_view text);

@@ -23,8 +23,9 @@ bool ends_with(const std::string& path, std::string_view end) {
 }  // namespace
 
 MedialModel medial::model_from_text(const std::string& name, std::string_view text) {
-  const medial::Json json = medial::parse_json(name, text);
-  const medial::JsonPlace document(name, json);
+  const io::JsonName names{name, "medial model", place_text};
+  const Json json = io::parse_json(names, text);
+  const JsonPlace document(names, json);
   if (!document.has("EllipticalSRep") && !document.has("figures"))
     document.fail("a medial model has EllipticalSRep (3D Slicer's s-reps) or figures (Batten's) at its top");
   MedialModel model = document.has("figures") ? medial::figures_from_json(document) : medial::srep_from_json(document);
@@ -59,7 +60,7 @@ void write_medial(const std::string& path, const MedialModel& model) {
                 path + ": an .srep.json holds one figure on an elliptical grid; write .json instead");
   }
   const medial::Json json = srep ? medial::srep_to_json(model.figures.front()) : medial::figures_to_json(model);
-  const std::string text = medial::json_text(json);
+  const std::string text = io::json_text(json);
   write_bytes(path, Buffer<unsigned char>(text.begin(), text.end()));
 }
 

@@ -8,7 +8,7 @@
 #include "batten/error.h"
 #include "batten/types.h"
 
-namespace batten::medial {
+namespace batten::io {
 
 using Json = nlohmann::ordered_json;
 
@@ -18,20 +18,27 @@ struct JsonStep {
   std::size_t number = 0;
 };
 
-/// "line 3, step 1, UpSpoke, Direction", from the steps that lead from the root. Empty at the root.
-std::string place_text(const std::vector<JsonStep>& steps);
+/// "forces[2].stiffness", from the steps that lead from the root. Empty at the root.
+std::string path_text(const std::vector<JsonStep>& steps);
 
-/// The document. Throws Error(BadFile) "NAME: PLACE: ..." where the text is no JSON, or is nested
-/// deeper than any model.
-Json parse_json(const std::string& name, std::string_view text);
+/// What errors call a document, and the places in it.
+struct JsonName {
+  std::string file;
+  std::string kind = "document";  ///< "a scene is not so deep"
+  std::string (*place_text)(const std::vector<JsonStep>& steps) = path_text;
+};
+
+/// The document. Throws Error(BadFile) "FILE: PLACE: ..." where the text is no JSON, gives a key twice, or is nested
+/// more than 64 deep.
+Json parse_json(const JsonName& name, std::string_view text);
 
 /// The document as text: a value on one line where that is short, otherwise an entry a line. Ends in a line feed.
 std::string json_text(const Json& document);
 
-/// A view of a value; the document, and the place that it was reached from, must outlive it.
+/// A view of a value; the document, its name, and the place that it was reached from, must outlive it.
 class JsonPlace {
  public:
-  JsonPlace(const std::string& file, const Json& value) : file_(file), value_(value) {}
+  JsonPlace(const JsonName& name, const Json& value) : name_(name), value_(value) {}
 
   /// A member of an object; throws where it is missing.
   JsonPlace at(const char* key) const;
@@ -41,13 +48,24 @@ class JsonPlace {
   /// The length of a list; throws where the value is none.
   std::size_t size() const;
 
+  /// Throws where the value is no object, or has a key that is none of these; names the nearest one.
+  void require_keys(const std::vector<std::string>& keys) const;
+
+  bool is_number() const { return value_.is_number(); }
   bool is_list() const { return value_.is_array(); }
   bool is_object() const { return value_.is_object(); }
   bool is_text() const { return value_.is_string(); }
   double number() const;
+  double not_negative() const;
+  double positive() const;
   /// A whole number from 0 on that an Index can hold.
   Index index() const;
+  /// The same, at most `most`.
+  Index index_to(Index most) const;
   std::string text() const;
+  bool truth() const;
+  /// The number of the text among these words; throws for other words, naming the nearest one.
+  std::size_t choice(const std::vector<std::string>& words) const;
   /// Three finite numbers.
   Eigen::Vector3d vector() const;
   /// The two numbers of a pair.
@@ -58,14 +76,14 @@ class JsonPlace {
 
  private:
   JsonPlace(const JsonPlace& parent, const Json& value, const char* key, std::size_t number)
-      : file_(parent.file_), value_(value), parent_(&parent), key_(key), number_(number) {}
+      : name_(parent.name_), value_(value), parent_(&parent), key_(key), number_(number) {}
   void require_list(std::size_t length) const;
 
-  const std::string& file_;
+  const JsonName& name_;
   const Json& value_;
   const JsonPlace* parent_ = nullptr;
   const char* key_ = "";
   std::size_t number_ = 0;
 };
 
-}  // namespace batten::medial
+}  // namespace batten::io
