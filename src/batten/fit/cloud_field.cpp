@@ -1,0 +1,93 @@
+#include "batten/fit/cloud_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "batten/fit/winding_field.h"
+#include "batten/parallel/parallel.h"
+#include "batten/quantile.h"
+
+namespace batten {
+
+namespace {
+
+constexpr double kFinestCells = 80.0;
+constexpr double kMargin = 0.12;
+constexpr double kWidthShare = 0.6;
+constexpr Index kPlaceNeighbours = 10;
+
+/// The winding number that the median sample has.
+double level_on_samples(const CloudSamples& samples, const WindingField& field) {
+  std::vector<double> values(static_cast<std::size_t>(samples.points.rows()));
+  parallel_for(
+      samples.points.rows(),
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        for (std::ptrdiff_t row = begin; row < end; ++row) values[row] = field.value(samples.points.row(row));
+      },
+      256);
+  return quantile(values, 0.5);
+}
+
+void fill_grid(ValueGrid& grid, const WindingField& field, double level, const Progress& progress) {
+  const std::ptrdiff_t rows = static_cast<std::ptrdiff_t>(grid.nodes[1]) * grid.nodes[2];
+  const auto fill = [&](std::ptrdiff_t row) {
+    const auto j = static_cast<Index>(row % grid.nodes[1]);
+    const auto k = static_cast<Index>(row / grid.nodes[1]);
+    for (Index i = 0; i < grid.nodes[0]; ++i)
+      grid.values[grid.node(i, j, k)] = static_cast<float>(field.value(grid.place(i, j, k)) - level);
+  };
+  parallel_for_each(rows, fill, progress);
+}
+
+}  // namespace
+
+CloudField::CloudField(CloudSamples prepared, const Progress& progress)
+    : samples(std::move(prepared)), tree(samples.points) {
+  const WindingField field(samples.points, samples.normals, samples.areas, kWidthShare * samples.spacing);
+  level = level_on_samples(samples, field);
+  const double spacing = std::max(0.7 * samples.typical, 1.0 / kFinestCells);
+  const double margin = std::max(kMargin, 3.0 * spacing);
+  const Eigen::RowVector3d low = samples.points.colwise().minCoeff().array() - margin;
+  const Eigen::RowVector3d high = samples.points.colwise().maxCoeff().array() + margin;
+  grid = grid_over(low, high, spacing);
+  fill_grid(grid, field, level, progress);
+}
+
+Eigen::RowVector3d CloudField::nearest_place(const Eigen::RowVector3d& place, const Eigen::RowVector3d& normal) const {
+  Index near[kPlaceNeighbours];
+  double squares[kPlaceNeighbours];
+  const Index found = tree.nearest(place, kPlaceNeighbours, near, squares);
+  const double width = found > 0 ? std::max(samples.spacing(near[0]), std::sqrt(squares[0])) : 0.0;
+  Eigen::RowVector3d mean = Eigen::RowVector3d::Zero();
+  Eigen::RowVector3d mean_normal = Eigen::RowVector3d::Zero();
+  double sum = 0.0;
+  for (Index k = 0; k < found; ++k) {
+    if (samples.normals.row(near[k]).dot(normal) < 0.0) continue;
+    const double weight = std::exp(-squares[k] / (width * width));
+    mean += weight * samples.points.row(near[k]);
+    mean_normal += weight * samples.normals.row(near[k]);
+    sum += weight;
+  }
+  const double length = mean_normal.norm();
+  if (sum > 0.0 && length > 0.2 * sum && std::sqrt(squares[0]) < 4.0 * samples.spacing(near[0])) {
+    mean /= sum;
+    mean_normal /= length;
+    return place + mean_normal * (mean - place).dot(mean_normal);
+  }
+  // Newton's step on the field along its slope, at most one cell.
+  const double h = grid.spacing;
+  Eigen::RowVector3d slope;
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    const Eigen::RowVector3d step = h * Eigen::RowVector3d::Unit(c);
+    slope(c) = (grid.at(place + step) - grid.at(place - step)) / (2.0 * h);
+  }
+  const double square = slope.squaredNorm();
+  if (!(square > 0.0)) return place;
+  Eigen::RowVector3d move = -grid.at(place) / square * slope;
+  const double far = move.norm();
+  if (far > h) move *= h / far;
+  return place + move;
+}
+
+}  // namespace batten

@@ -1,0 +1,125 @@
+#include "batten/fit/contour_search.h"
+
+#include <cmath>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "batten/error.h"
+#include "batten/fit/contour_parts.h"
+#include "batten/fit/dual_contour.h"
+#include "batten/parallel/parallel.h"
+
+namespace batten {
+
+namespace {
+
+constexpr Index kSupportPlaces = 1500;
+
+/// The genus and number of components.
+struct Shape {
+  Index genus = 0;
+  Index components = 0;
+  bool operator<(const Shape& other) const {
+    return genus != other.genus ? genus < other.genus : components < other.components;
+  }
+  bool operator==(const Shape& other) const { return genus == other.genus && components == other.components; }
+};
+
+struct Candidate {
+  FoundContour contour;
+  Shape shape;
+};
+
+Shape shape_of(const Mesh& mesh) {
+  Shape shape;
+  for (const FirstMeshPart& part : mesh_parts(mesh)) {
+    shape.genus += part.genus;
+    ++shape.components;
+  }
+  return shape;
+}
+
+/// The contour on a grid of this spacing, moved by parts of it.
+Candidate contour_at(const CloudField& field, const Points& places, double spacing, const Eigen::RowVector3d& move) {
+  const ValueGrid& fine = field.grid;
+  Eigen::RowVector3d low = fine.origin;
+  Eigen::RowVector3d high = fine.origin;
+  for (int c = 0; c < 3; ++c) high(c) += fine.spacing * (fine.nodes[c] - 1);
+  ValueGrid grid = grid_over(low - spacing * (Eigen::RowVector3d::Ones() - move), high + spacing * Eigen::RowVector3d::Ones(), spacing);
+  parallel_for_each(grid.nodes[2], [&](std::ptrdiff_t k) {
+    for (Index j = 0; j < grid.nodes[1]; ++j) {
+      for (Index i = 0; i < grid.nodes[0]; ++i)
+        grid.values[grid.node(i, j, static_cast<Index>(k))] =
+            static_cast<float>(fine.at(grid.place(i, j, static_cast<Index>(k))));
+    }
+  });
+  Candidate candidate;
+  candidate.contour.mesh = dual_contour(grid);
+  candidate.contour.spacing = spacing;
+  if (candidate.contour.mesh.face_count() == 0) return candidate;
+  candidate.contour.dropped = drop_unsupported(candidate.contour.mesh, places);
+  candidate.shape = shape_of(candidate.contour.mesh);
+  return candidate;
+}
+
+/// The spacing at which about so many vertices come out.
+double spacing_for(const CloudField& field, const Points& places, Index vertices) {
+  double low = 1.0 / 400.0;
+  double high = 0.5;
+  double spacing = std::sqrt(1.5 * field.samples.areas.sum() / vertices);
+  for (int round = 0; round < 8; ++round) {
+    spacing = std::min(std::max(spacing, low), high);
+    const auto count = static_cast<double>(
+        contour_at(field, places, spacing, Eigen::RowVector3d::Zero()).contour.mesh.vertex_count());
+    if (std::abs(count / vertices - 1.0) < 0.02) break;
+    spacing *= count > 0.0 ? std::min(1.6, std::max(0.6, std::sqrt(count / vertices))) : 0.6;
+  }
+  return spacing;
+}
+
+/// The shape that most grids nearly as fine as the field's give; of equals the simplest.
+Shape shape_of_field(const CloudField& field, const Points& places, const std::optional<Index>& genus) {
+  std::map<Shape, int> votes;
+  for (const double share : {1.0, 1.15, 1.3, 1.5}) {
+    for (const double move : {0.0, 0.25, 0.5}) {
+      const Eigen::RowVector3d moves = Eigen::RowVector3d::Constant(move);
+      ++votes[contour_at(field, places, share * field.grid.spacing, moves).shape];
+    }
+  }
+  Shape wanted;
+  int most = 0;
+  for (const auto& vote : votes) {
+    if (vote.first.components == 0 || vote.second <= most || (genus && vote.first.genus != *genus)) continue;
+    most = vote.second;
+    wanted = vote.first;
+  }
+  if (most == 0 && genus) wanted = {*genus, 1};
+  return wanted;
+}
+
+}  // namespace
+
+FoundContour find_contour(const CloudField& field, const FirstMeshOptions& options) {
+  const Points places = some_samples(field.samples, kSupportPlaces);
+  const Shape wanted = shape_of_field(field, places, options.genus);
+  const double spacing = spacing_for(field, places, options.vertices);
+  const auto badness = [&](const Candidate& c) {
+    return std::abs(std::log(static_cast<double>(c.contour.mesh.vertex_count()) / options.vertices));
+  };
+  constexpr double kGoodEnough = 0.05;
+  Candidate best;
+  for (const double share : {1.0, 0.97, 1.03, 0.94, 1.06, 0.9, 0.85, 0.8, 0.75, 0.7}) {
+    for (int corner = 0; corner < 8; ++corner) {
+      const Eigen::RowVector3d move = 0.5 * Eigen::RowVector3d(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+      Candidate candidate = contour_at(field, places, spacing * share, move);
+      if (!(candidate.shape == wanted)) continue;
+      if (best.shape.components == 0 || badness(candidate) < badness(best)) best = std::move(candidate);
+    }
+    if (best.shape.components > 0 && badness(best) < kGoodEnough) break;
+  }
+  if (best.shape.components == 0) throw Error(ErrorCode::NotConverged, "no grid gives a surface of the genus asked for");
+  return std::move(best.contour);
+}
+
+}  // namespace batten
