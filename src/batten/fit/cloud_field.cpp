@@ -29,6 +29,42 @@ double level_on_samples(const CloudSamples& samples, const WindingField& field) 
   return quantile(values, 0.5);
 }
 
+/// The normals of samples turned to where the field of all falls, each time on a finer scale: what most of them say of
+/// the sides puts the others right.
+Points turned_normals(const CloudSamples& samples) {
+  constexpr int kRounds = 4;
+  constexpr double kFirstWidth = 3.0;
+  Points normals = samples.normals;
+  for (int round = 0; round < kRounds; ++round) {
+    const double width = kFirstWidth + (kWidthShare - kFirstWidth) * round / (kRounds - 1);
+    const WindingField field(samples.points, normals, samples.areas, width * samples.spacing);
+    parallel_for(
+        normals.rows(),
+        [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+          for (std::ptrdiff_t row = begin; row < end; ++row) {
+            const Eigen::RowVector3d fall = field.fall(samples.points.row(row));
+            const double length = fall.norm();
+            if (length > 0.0) normals.row(row) = fall / length;
+          }
+        },
+        256);
+  }
+  return normals;
+}
+
+/// Normals on the side of the turned ones, which take the place of those at a right angle to them.
+void take_sides(CloudSamples& samples, const Points& turned) {
+  constexpr double kUpright = 0.3;
+  for (Eigen::Index row = 0; row < turned.rows(); ++row) {
+    const double along = samples.normals.row(row).dot(turned.row(row));
+    if (std::abs(along) < kUpright) {
+      samples.normals.row(row) = turned.row(row);
+    } else if (along < 0.0) {
+      samples.normals.row(row) *= -1.0;
+    }
+  }
+}
+
 void fill_grid(ValueGrid& grid, const WindingField& field, double level, const Progress& progress) {
   const std::ptrdiff_t rows = static_cast<std::ptrdiff_t>(grid.nodes[1]) * grid.nodes[2];
   const auto fill = [&](std::ptrdiff_t row) {
@@ -44,7 +80,9 @@ void fill_grid(ValueGrid& grid, const WindingField& field, double level, const P
 
 CloudField::CloudField(CloudSamples prepared, const Progress& progress)
     : samples(std::move(prepared)), tree(samples.points) {
-  const WindingField field(samples.points, samples.normals, samples.areas, kWidthShare * samples.spacing);
+  const Points turned = turned_normals(samples);
+  take_sides(samples, turned);
+  const WindingField field(samples.points, turned, samples.areas, kWidthShare * samples.spacing);
   level = level_on_samples(samples, field);
   const double spacing = std::max(0.7 * samples.typical, 1.0 / kFinestCells);
   const double margin = std::max(kMargin, 3.0 * spacing);

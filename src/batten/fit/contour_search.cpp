@@ -1,13 +1,20 @@
 #include "batten/fit/contour_search.h"
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "batten/error.h"
+#include "batten/fit/contour_gaps.h"
 #include "batten/fit/contour_parts.h"
 #include "batten/fit/dual_contour.h"
+#include "batten/fit/paired_quads.h"
+#include "batten/fit/relaxed_contour.h"
+#include "batten/fit/simplified.h"
+#include "batten/mesh/triangulate.h"
 #include "batten/parallel/parallel.h"
 
 namespace batten {
@@ -20,10 +27,10 @@ constexpr Index kSupportPlaces = 1500;
 struct Shape {
   Index genus = 0;
   Index components = 0;
-  bool operator<(const Shape& other) const {
-    return genus != other.genus ? genus < other.genus : components < other.components;
-  }
-  bool operator==(const Shape& other) const { return genus == other.genus && components == other.components; }
+  Index loops = 0;
+  std::array<Index, 3> numbers() const { return {genus, components, loops}; }
+  bool operator<(const Shape& other) const { return numbers() < other.numbers(); }
+  bool operator==(const Shape& other) const { return numbers() == other.numbers(); }
 };
 
 struct Candidate {
@@ -36,12 +43,13 @@ Shape shape_of(const Mesh& mesh) {
   for (const FirstMeshPart& part : mesh_parts(mesh)) {
     shape.genus += part.genus;
     ++shape.components;
+    shape.loops += part.boundary_loops;
   }
   return shape;
 }
 
 /// The contour on a grid of this spacing, moved by parts of it.
-Candidate contour_at(const CloudField& field, const Points& places, double spacing, const Eigen::RowVector3d& move) {
+Candidate contour_at(const CloudField& field, const Points& places, double spacing, const Eigen::RowVector3d& move, double bridge) {
   const ValueGrid& fine = field.grid;
   Eigen::RowVector3d low = fine.origin;
   Eigen::RowVector3d high = fine.origin;
@@ -59,19 +67,20 @@ Candidate contour_at(const CloudField& field, const Points& places, double spaci
   candidate.contour.spacing = spacing;
   if (candidate.contour.mesh.face_count() == 0) return candidate;
   candidate.contour.dropped = drop_unsupported(candidate.contour.mesh, places);
+  cut_gaps(candidate.contour.mesh, field, spacing, bridge);
   candidate.shape = shape_of(candidate.contour.mesh);
   return candidate;
 }
 
 /// The spacing at which about so many vertices come out.
-double spacing_for(const CloudField& field, const Points& places, Index vertices) {
+double spacing_for(const CloudField& field, const Points& places, Index vertices, double bridge) {
   double low = 1.0 / 400.0;
   double high = 0.5;
   double spacing = std::sqrt(1.5 * field.samples.areas.sum() / vertices);
   for (int round = 0; round < 8; ++round) {
     spacing = std::min(std::max(spacing, low), high);
     const auto count = static_cast<double>(
-        contour_at(field, places, spacing, Eigen::RowVector3d::Zero()).contour.mesh.vertex_count());
+        contour_at(field, places, spacing, Eigen::RowVector3d::Zero(), bridge).contour.mesh.vertex_count());
     if (std::abs(count / vertices - 1.0) < 0.02) break;
     spacing *= count > 0.0 ? std::min(1.6, std::max(0.6, std::sqrt(count / vertices))) : 0.6;
   }
@@ -79,12 +88,12 @@ double spacing_for(const CloudField& field, const Points& places, Index vertices
 }
 
 /// The shape that most grids nearly as fine as the field's give; of equals the simplest.
-Shape shape_of_field(const CloudField& field, const Points& places, const std::optional<Index>& genus) {
+Shape shape_of_field(const CloudField& field, const Points& places, const std::optional<Index>& genus, double bridge) {
   std::map<Shape, int> votes;
   for (const double share : {1.0, 1.15, 1.3, 1.5}) {
     for (const double move : {0.0, 0.25, 0.5}) {
       const Eigen::RowVector3d moves = Eigen::RowVector3d::Constant(move);
-      ++votes[contour_at(field, places, share * field.grid.spacing, moves).shape];
+      ++votes[contour_at(field, places, share * field.grid.spacing, moves, bridge).shape];
     }
   }
   Shape wanted;
@@ -94,32 +103,72 @@ Shape shape_of_field(const CloudField& field, const Points& places, const std::o
     most = vote.second;
     wanted = vote.first;
   }
-  if (most == 0 && genus) wanted = {*genus, 1};
   return wanted;
+}
+
+/// The contour of the wanted shape with about so many vertices; without faces where no grid gives it.
+FoundContour best_grid(const CloudField& field, const Points& places, const Shape& wanted, Index vertices,
+                       double bridge) {
+  constexpr double kGoodEnough = 0.05;
+  constexpr double kBadEnough = 0.35;
+  const double spacing = spacing_for(field, places, vertices, bridge);
+  double least = kBadEnough;
+  FoundContour best;
+  for (const double share : {1.0, 0.97, 1.03, 0.94, 1.06, 0.9, 0.85}) {
+    for (int corner = 0; corner < 8; ++corner) {
+      const Eigen::RowVector3d move = 0.5 * Eigen::RowVector3d(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+      Candidate candidate = contour_at(field, places, spacing * share, move, bridge);
+      if (!(candidate.shape == wanted)) continue;
+      const double badness = std::abs(std::log(static_cast<double>(candidate.contour.mesh.vertex_count()) / vertices));
+      if (badness >= least) continue;
+      least = badness;
+      best = std::move(candidate.contour);
+    }
+    if (least < kGoodEnough) break;
+  }
+  return best;
+}
+
+/// A fine contour of the wanted shape; without faces where no grid gives it.
+FoundContour fine_contour(const CloudField& field, const Points& places, const Shape& wanted, double bridge) {
+  for (const double share : {1.0, 1.15, 1.3, 1.5, 0.85}) {
+    for (const double move : {0.0, 0.25, 0.5}) {
+      const Eigen::RowVector3d moves = Eigen::RowVector3d::Constant(move);
+      Candidate candidate = contour_at(field, places, share * field.grid.spacing, moves, bridge);
+      if (candidate.shape == wanted) return std::move(candidate.contour);
+    }
+  }
+  return {};
 }
 
 }  // namespace
 
 FoundContour find_contour(const CloudField& field, const FirstMeshOptions& options) {
+  constexpr double kUsualBridge = 0.2;
+  const double bridge = options.bridge ? *options.bridge / field.samples.size : kUsualBridge;
   const Points places = some_samples(field.samples, kSupportPlaces);
-  const Shape wanted = shape_of_field(field, places, options.genus);
-  const double spacing = spacing_for(field, places, options.vertices);
-  const auto badness = [&](const Candidate& c) {
-    return std::abs(std::log(static_cast<double>(c.contour.mesh.vertex_count()) / options.vertices));
-  };
-  constexpr double kGoodEnough = 0.05;
-  Candidate best;
-  for (const double share : {1.0, 0.97, 1.03, 0.94, 1.06, 0.9, 0.85, 0.8, 0.75, 0.7}) {
-    for (int corner = 0; corner < 8; ++corner) {
-      const Eigen::RowVector3d move = 0.5 * Eigen::RowVector3d(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
-      Candidate candidate = contour_at(field, places, spacing * share, move);
-      if (!(candidate.shape == wanted)) continue;
-      if (best.shape.components == 0 || badness(candidate) < badness(best)) best = std::move(candidate);
+  const Shape wanted = shape_of_field(field, places, options.genus, bridge);
+  if (options.faces == FaceKind::Quads) {
+    FoundContour found = best_grid(field, places, wanted, options.vertices, bridge);
+    if (found.mesh.face_count() > 0) {
+      relax_contour(found.mesh, field);
+      return found;
     }
-    if (best.shape.components > 0 && badness(best) < kGoodEnough) break;
   }
-  if (best.shape.components == 0) throw Error(ErrorCode::NotConverged, "no grid gives a surface of the genus asked for");
-  return std::move(best.contour);
+  FoundContour found = fine_contour(field, places, wanted, bridge);
+  if (found.mesh.face_count() == 0) {
+    if (options.genus)
+      throw Error(ErrorCode::NotConverged, "no grid gives a surface of genus " + std::to_string(*options.genus) +
+                                               ": leave the genus open, or give more points");
+    throw Error(ErrorCode::NotConverged, "the points do not lie on a surface: they may fill a volume");
+  }
+  relax_contour(found.mesh, field);
+  found.mesh = simplified(triangulated(found.mesh), options.vertices);
+  found.simplified = true;
+  if (options.faces == FaceKind::Triangles) return found;
+  found.mesh = paired_quads(found.mesh);
+  relax_contour(found.mesh, field);
+  return found;
 }
 
 }  // namespace batten

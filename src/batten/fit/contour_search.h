@@ -10,6 +10,7 @@ struct FoundContour {
   Mesh mesh;
   double spacing = 0.0;
   Index dropped = 0;
+  bool simplified = false;  ///< a finer contour was made coarser
 };
 
 FoundContour find_contour(const CloudField& field, const FirstMeshOptions& options);

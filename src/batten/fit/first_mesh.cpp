@@ -9,7 +9,6 @@
 #include "batten/fit/cloud_field.h"
 #include "batten/fit/contour_parts.h"
 #include "batten/fit/contour_search.h"
-#include "batten/fit/relaxed_contour.h"
 
 namespace batten {
 
@@ -24,12 +23,12 @@ FirstMesh first_mesh(const PointCloud& cloud, const FirstMeshOptions& options, c
     throw Error(ErrorCode::BadArgument, "a first mesh has 8 to 1,000,000 vertices");
   const CloudField field(prepare_cloud(cloud, progress_within(progress, 0.0, 0.6)), progress_within(progress, 0.6, 0.8));
   FoundContour found = find_contour(field, options);
-  relax_contour(found.mesh, field);
   FirstMesh result;
   result.parts = mesh_parts(found.mesh);
   result.mesh = std::move(found.mesh);
   result.mesh.points *= field.samples.size;
   result.mesh.points.rowwise() += field.samples.centre;
+  result.simplified = found.simplified;
   result.spacing = found.spacing * field.samples.size;
   result.point_spacing = field.samples.typical * field.samples.size;
   result.repeated_points = field.samples.repeated;

@@ -94,8 +94,15 @@ double WindingField::part(const Piece& piece, const Eigen::RowVector3d& place) {
   return (piece.area[0] * x + piece.area[1] * y + piece.area[2] * z) / (square * std::sqrt(square));
 }
 
-double WindingField::value(const Eigen::RowVector3d& place) const {
-  double sum = 0.0;
+Eigen::RowVector3d WindingField::fall_part(const Piece& piece, const Eigen::RowVector3d& place) {
+  const Eigen::RowVector3d area(piece.area[0], piece.area[1], piece.area[2]);
+  const Eigen::RowVector3d way = Eigen::RowVector3d(piece.at[0], piece.at[1], piece.at[2]) - place;
+  const double square = way.squaredNorm() + piece.width_square;
+  return (area - 3.0 * area.dot(way) / square * way) / (square * std::sqrt(square));
+}
+
+template <typename Sum, typename Part>
+void WindingField::add(const Eigen::RowVector3d& place, Sum& sum, const Part& part) const {
   const auto count = static_cast<Index>(nodes_.size());
   for (Index at = 0; at < count;) {
     const Node& node = nodes_[at];
@@ -112,6 +119,17 @@ double WindingField::value(const Eigen::RowVector3d& place) const {
       ++at;
     }
   }
+}
+
+double WindingField::value(const Eigen::RowVector3d& place) const {
+  double sum = 0.0;
+  add(place, sum, part);
+  return sum;
+}
+
+Eigen::RowVector3d WindingField::fall(const Eigen::RowVector3d& place) const {
+  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+  add(place, sum, fall_part);
   return sum;
 }
 

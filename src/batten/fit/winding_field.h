@@ -17,6 +17,8 @@ class WindingField {
 
   /// About 0.5 % exact: pieces that are together seen from three of their radii away count as one. O(log N).
   double value(const Eigen::RowVector3d& place) const;
+  /// The direction in which it falls fastest, by the same rule: outwards on the surface.
+  Eigen::RowVector3d fall(const Eigen::RowVector3d& place) const;
 
  private:
   struct Piece {
@@ -32,6 +34,10 @@ class WindingField {
     Index skip;  ///< the next node where this one is done with
   };
   static double part(const Piece& piece, const Eigen::RowVector3d& place);
+  static Eigen::RowVector3d fall_part(const Piece& piece, const Eigen::RowVector3d& place);
+  /// Adds what `part` says of pieces and nodes.
+  template <typename Sum, typename Part>
+  void add(const Eigen::RowVector3d& place, Sum& sum, const Part& part) const;
   Index build(Index begin, Index end, const Points& points);
   Node summed(Index begin, Index end) const;
 
