@@ -87,14 +87,17 @@ double spacing_for(const CloudField& field, const Points& places, Index vertices
   return spacing;
 }
 
-/// The shape that most grids nearly as fine as the field's give; of equals the simplest.
+/// The shape that most grids nearly as fine as the field's give; of equals the simplest. Two more grids are asked as
+/// long as they disagree.
 Shape shape_of_field(const CloudField& field, const Points& places, const std::optional<Index>& genus, double bridge) {
+  constexpr std::array<double, 6> kShares{1.3, 1.0, 1.15, 1.5, 1.08, 1.4};
   std::map<Shape, int> votes;
-  for (const double share : {1.0, 1.15, 1.3, 1.5}) {
-    for (const double move : {0.0, 0.25, 0.5}) {
+  for (const double share : kShares) {
+    for (const double move : {0.0, 0.5}) {
       const Eigen::RowVector3d moves = Eigen::RowVector3d::Constant(move);
       ++votes[contour_at(field, places, share * field.grid.spacing, moves, bridge).shape];
     }
+    if (votes.size() == 1 && !genus && share != kShares[0]) break;
   }
   Shape wanted;
   int most = 0;
@@ -141,13 +144,22 @@ FoundContour fine_contour(const CloudField& field, const Points& places, const S
   return {};
 }
 
+[[noreturn]] void refuse(const FirstMeshOptions& options) {
+  if (options.genus)
+    throw Error(ErrorCode::NotConverged, "no grid gives a surface of genus " + std::to_string(*options.genus) +
+                                             ": leave the genus open, or give more points");
+  throw Error(ErrorCode::NotConverged, "the points do not lie on a surface: they may fill a volume");
+}
+
 }  // namespace
 
-FoundContour find_contour(const CloudField& field, const FirstMeshOptions& options) {
+FoundContour find_contour(const CloudField& field, const FirstMeshOptions& options, const Progress& progress) {
   constexpr double kUsualBridge = 0.2;
   const double bridge = options.bridge ? *options.bridge / field.samples.size : kUsualBridge;
   const Points places = some_samples(field.samples, kSupportPlaces);
   const Shape wanted = shape_of_field(field, places, options.genus, bridge);
+  if (wanted.components == 0) refuse(options);
+  report_progress(progress, 0.4);
   if (options.faces == FaceKind::Quads) {
     FoundContour found = best_grid(field, places, wanted, options.vertices, bridge);
     if (found.mesh.face_count() > 0) {
@@ -155,15 +167,11 @@ FoundContour find_contour(const CloudField& field, const FirstMeshOptions& optio
       return found;
     }
   }
+  report_progress(progress, 0.6);
   FoundContour found = fine_contour(field, places, wanted, bridge);
-  if (found.mesh.face_count() == 0) {
-    if (options.genus)
-      throw Error(ErrorCode::NotConverged, "no grid gives a surface of genus " + std::to_string(*options.genus) +
-                                               ": leave the genus open, or give more points");
-    throw Error(ErrorCode::NotConverged, "the points do not lie on a surface: they may fill a volume");
-  }
+  if (found.mesh.face_count() == 0) refuse(options);
   relax_contour(found.mesh, field);
-  found.mesh = simplified(triangulated(found.mesh), options.vertices);
+  found.mesh = simplified(triangulated(found.mesh), options.vertices, progress_within(progress, 0.7, 0.9));
   found.simplified = true;
   if (options.faces == FaceKind::Triangles) return found;
   found.mesh = paired_quads(found.mesh);

@@ -13,6 +13,8 @@ struct FoundContour {
   bool simplified = false;  ///< a finer contour was made coarser
 };
 
-FoundContour find_contour(const CloudField& field, const FirstMeshOptions& options);
+/// The contour with the shape that most grids give, with a vertex near each place that is said to have one. Throws
+/// Error: NotConverged, Cancelled.
+FoundContour find_contour(const CloudField& field, const FirstMeshOptions& options, const Progress& progress = {});
 
 }  // namespace batten

@@ -42,7 +42,7 @@ struct FirstMesh {
   Index genus() const;  ///< of all components together
 };
 
-/// The result depends on the points, not on their order. Throws Error: BadShape, NotFinite, BadArgument (fewer than four
+/// The result depends on the points, not on their order. Throws Error: BadShape, NotFinite, BadArgument (fewer than 20
 /// points apart, all on a line; an option out of its range), NotConverged (the genus asked for does not come out),
 /// Cancelled.
 FirstMesh first_mesh(const PointCloud& cloud, const FirstMeshOptions& options = {}, const Progress& progress = {});
