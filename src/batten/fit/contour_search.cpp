@@ -1,7 +1,6 @@
 #include "batten/fit/contour_search.h"
 
 #include <array>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
@@ -22,6 +21,7 @@ namespace batten {
 namespace {
 
 constexpr Index kSupportPlaces = 1500;
+constexpr int kRelaxRounds = 3;
 
 /// The genus and number of components.
 struct Shape {
@@ -72,21 +72,6 @@ Candidate contour_at(const CloudField& field, const Points& places, double spaci
   return candidate;
 }
 
-/// The spacing at which about so many vertices come out.
-double spacing_for(const CloudField& field, const Points& places, Index vertices, double bridge) {
-  double low = 1.0 / 400.0;
-  double high = 0.5;
-  double spacing = std::sqrt(1.5 * field.samples.areas.sum() / vertices);
-  for (int round = 0; round < 8; ++round) {
-    spacing = std::min(std::max(spacing, low), high);
-    const auto count = static_cast<double>(
-        contour_at(field, places, spacing, Eigen::RowVector3d::Zero(), bridge).contour.mesh.vertex_count());
-    if (std::abs(count / vertices - 1.0) < 0.02) break;
-    spacing *= count > 0.0 ? std::min(1.6, std::max(0.6, std::sqrt(count / vertices))) : 0.6;
-  }
-  return spacing;
-}
-
 /// The shape that most grids nearly as fine as the field's give; of equals the simplest. Two more grids are asked as
 /// long as they disagree.
 Shape shape_of_field(const CloudField& field, const Points& places, const std::optional<Index>& genus, double bridge) {
@@ -107,29 +92,6 @@ Shape shape_of_field(const CloudField& field, const Points& places, const std::o
     wanted = vote.first;
   }
   return wanted;
-}
-
-/// The contour of the wanted shape with about so many vertices; without faces where no grid gives it.
-FoundContour best_grid(const CloudField& field, const Points& places, const Shape& wanted, Index vertices,
-                       double bridge) {
-  constexpr double kGoodEnough = 0.05;
-  constexpr double kBadEnough = 0.35;
-  const double spacing = spacing_for(field, places, vertices, bridge);
-  double least = kBadEnough;
-  FoundContour best;
-  for (const double share : {1.0, 0.97, 1.03, 0.94, 1.06, 0.9, 0.85}) {
-    for (int corner = 0; corner < 8; ++corner) {
-      const Eigen::RowVector3d move = 0.5 * Eigen::RowVector3d(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
-      Candidate candidate = contour_at(field, places, spacing * share, move, bridge);
-      if (!(candidate.shape == wanted)) continue;
-      const double badness = std::abs(std::log(static_cast<double>(candidate.contour.mesh.vertex_count()) / vertices));
-      if (badness >= least) continue;
-      least = badness;
-      best = std::move(candidate.contour);
-    }
-    if (least < kGoodEnough) break;
-  }
-  return best;
 }
 
 /// A fine contour of the wanted shape; without faces where no grid gives it.
@@ -159,23 +121,14 @@ FoundContour find_contour(const CloudField& field, const FirstMeshOptions& optio
   const Points places = some_samples(field.samples, kSupportPlaces);
   const Shape wanted = shape_of_field(field, places, options.genus, bridge);
   if (wanted.components == 0) refuse(options);
-  report_progress(progress, 0.4);
-  if (options.faces == FaceKind::Quads) {
-    FoundContour found = best_grid(field, places, wanted, options.vertices, bridge);
-    if (found.mesh.face_count() > 0) {
-      relax_contour(found.mesh, field);
-      return found;
-    }
-  }
-  report_progress(progress, 0.6);
+  report_progress(progress, 0.5);
   FoundContour found = fine_contour(field, places, wanted, bridge);
   if (found.mesh.face_count() == 0) refuse(options);
-  relax_contour(found.mesh, field);
+  relax_contour(found.mesh, field, kRelaxRounds);
   found.mesh = simplified(triangulated(found.mesh), options.vertices, progress_within(progress, 0.7, 0.9));
-  found.simplified = true;
   if (options.faces == FaceKind::Triangles) return found;
   found.mesh = paired_quads(found.mesh);
-  relax_contour(found.mesh, field);
+  relax_contour(found.mesh, field, kRelaxRounds);
   return found;
 }
 

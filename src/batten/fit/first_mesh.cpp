@@ -65,7 +65,6 @@ void append_contour(FirstMesh& result, const FoundContour& found, const CloudFie
   }
   const std::vector<FirstMeshPart> parts = mesh_parts(found.mesh);
   result.parts.insert(result.parts.end(), parts.begin(), parts.end());
-  result.simplified = result.simplified || found.simplified;
   result.repeated_points += field.samples.repeated;
   result.outliers += field.samples.outliers;
   result.dropped_parts += found.dropped;

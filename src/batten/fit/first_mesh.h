@@ -33,7 +33,6 @@ struct FirstMesh {
   Mesh mesh;                         ///< accepted by Topology; vertices near the points
   std::vector<FirstMeshPart> parts;  ///< the components, ordered by lowest vertex
   double spacing = 0.0;              ///< of the grid that the mesh was cut from
-  bool simplified = false;           ///< edges of a finer mesh were collapsed
   double point_spacing = 0.0;        ///< the median distance of neighbouring points
   Index repeated_points = 0;         ///< points at the place of another
   Index outliers = 0;                ///< points left out
