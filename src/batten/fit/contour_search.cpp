@@ -1,6 +1,8 @@
 #include "batten/fit/contour_search.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
@@ -106,6 +108,44 @@ FoundContour fine_contour(const CloudField& field, const Points& places, const S
   return {};
 }
 
+/// The spacing at which about so many vertices come out.
+double spacing_for(const CloudField& field, const Points& places, Index vertices, double bridge) {
+  constexpr int kRounds = 8;
+  constexpr double kNear = 0.02;
+  double spacing = std::sqrt(1.5 * field.samples.areas.sum() / vertices);
+  for (int round = 0; round < kRounds; ++round) {
+    spacing = std::min(std::max(spacing, 0.5 * field.grid.spacing), 0.5);
+    const Candidate candidate = contour_at(field, places, spacing, Eigen::RowVector3d::Zero(), bridge);
+    const auto count = static_cast<double>(candidate.contour.mesh.vertex_count());
+    if (std::abs(count / vertices - 1.0) < kNear) break;
+    spacing *= std::min(1.6, std::max(0.6, std::sqrt(count / vertices)));
+  }
+  return spacing;
+}
+
+/// The coarse contour of the wanted shape with about so many vertices; without faces where no grid gives one.
+FoundContour coarse_contour(const CloudField& field, const Points& places, const Shape& wanted, Index vertices,
+                            double bridge) {
+  constexpr double kGoodEnough = 0.05;
+  constexpr double kTooBad = 0.35;
+  const double spacing = spacing_for(field, places, vertices, bridge);
+  double least = kTooBad;
+  FoundContour best;
+  for (const double share : {1.0, 0.97, 1.03, 0.94, 1.06, 0.9, 0.85}) {
+    for (int corner = 0; corner < 8; ++corner) {
+      const Eigen::RowVector3d move = 0.5 * Eigen::RowVector3d(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+      Candidate candidate = contour_at(field, places, spacing * share, move, bridge);
+      if (!(candidate.shape == wanted)) continue;
+      const double badness = std::abs(std::log(static_cast<double>(candidate.contour.mesh.vertex_count()) / vertices));
+      if (badness >= least) continue;
+      least = badness;
+      best = std::move(candidate.contour);
+    }
+    if (least < kGoodEnough) break;
+  }
+  return best;
+}
+
 [[noreturn]] void refuse(const FirstMeshOptions& options) {
   if (options.genus)
     throw Error(ErrorCode::NotConverged, "no grid gives a surface of genus " + std::to_string(*options.genus) +
@@ -122,6 +162,13 @@ FoundContour find_contour(const CloudField& field, const FirstMeshOptions& optio
   const Shape wanted = shape_of_field(field, places, options.genus, bridge);
   if (wanted.components == 0) refuse(options);
   report_progress(progress, 0.5);
+  if (options.faces == FaceKind::Quads && options.pattern == QuadPattern::Grid) {
+    FoundContour found = coarse_contour(field, places, wanted, options.vertices, bridge);
+    if (found.mesh.face_count() > 0) {
+      relax_contour(found.mesh, field, kRelaxRounds);
+      return found;
+    }
+  }
   FoundContour found = fine_contour(field, places, wanted, bridge);
   if (found.mesh.face_count() == 0) refuse(options);
   relax_contour(found.mesh, field, kRelaxRounds);

@@ -11,9 +11,17 @@ namespace batten {
 /// The faces of a first mesh.
 enum class FaceKind { Quads, Triangles };
 
+/// How quads are laid.
+enum class QuadPattern {
+  Adapted,  ///< smaller where the surface bends: the triangles of FaceKind::Triangles joined in pairs
+  Grid      ///< of equal size along a grid, regular where the surface follows the axes; Adapted where that would have
+            ///< another topology
+};
+
 /// Options of first_mesh(). Lengths are in the unit of the points.
 struct FirstMeshOptions {
   FaceKind faces = FaceKind::Quads;
+  QuadPattern pattern = QuadPattern::Adapted;
   Index vertices = 400;            ///< about so many; 8 to 1,000,000
   std::optional<Index> genus;      ///< of all components together: no other is taken
   /// Gaps between points up to this width are closed, wider ones become boundaries. Without: gaps are closed where they

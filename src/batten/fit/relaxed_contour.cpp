@@ -91,34 +91,42 @@ Eigen::RowVector3d boundary_place(const Topology& topology, const Points& points
   double farthest = -reach;
   for (Index k = 0; k < found; ++k) {
     const Eigen::RowVector3d step = field.samples.points.row(near[k]) - place;
-    if (std::abs(step.dot(along)) < std::max(0.5 * reach, 0.75 * field.samples.spacing(near[k])))
+    if (std::abs(step.dot(along)) < std::max(0.5 * reach, 1.5 * field.samples.spacing(near[k])))
       farthest = std::max(farthest, step.dot(across));
   }
-  return place + across * std::clamp(farthest, -0.25 * reach, 0.25 * reach);
+  return kept_open(topology, points, vertex, place + across * std::clamp(farthest, -0.25 * reach, 0.25 * reach),
+                   ring.normal);
+}
+
+/// Where an inner vertex goes: along the surface towards the mean of its neighbours, then to the samples.
+Eigen::RowVector3d inner_place(const Topology& topology, const Points& points, const CloudField& field, Index vertex) {
+  const RingMean ring = ring_mean(topology, points, vertex);
+  Eigen::RowVector3d move = kRelaxStep * (ring.mean - points.row(vertex));
+  move -= ring.normal * ring.normal.dot(move);
+  return kept_open(topology, points, vertex, field.nearest_place(points.row(vertex) + move, ring.normal), ring.normal);
 }
 
 }  // namespace
 
 void relax_contour(Mesh& mesh, const CloudField& field, int rounds) {
+  constexpr int kBoundarySweeps = 4;
   const Topology topology(mesh);
   const double reach = edge_lengths(topology, mesh.points).mean;
-  for (int round = 0; round < rounds; ++round) {
-    const Points before = mesh.points;
+  Points before;
+  const auto sweep = [&](bool boundary) {
+    before = mesh.points;
     const auto relax = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-      for (std::ptrdiff_t v = begin; v < end; ++v) {
-        const auto vertex = static_cast<Index>(v);
-        if (topology.is_boundary_vertex(vertex)) {
-          mesh.points.row(v) = boundary_place(topology, before, field, vertex, reach);
-          continue;
-        }
-        const RingMean ring = ring_mean(topology, before, vertex);
-        Eigen::RowVector3d move = kRelaxStep * (ring.mean - before.row(v));
-        move -= ring.normal * ring.normal.dot(move);
-        const Eigen::RowVector3d place = field.nearest_place(before.row(v) + move, ring.normal);
-        mesh.points.row(v) = kept_open(topology, before, vertex, place, ring.normal);
+      for (auto vertex = static_cast<Index>(begin); vertex < end; ++vertex) {
+        if (topology.is_boundary_vertex(vertex) != boundary) continue;
+        mesh.points.row(vertex) = boundary ? boundary_place(topology, before, field, vertex, reach)
+                                           : inner_place(topology, before, field, vertex);
       }
     };
     parallel_for(mesh.points.rows(), relax, 64);
+  };
+  for (int round = 0; round < rounds; ++round) {
+    for (int step = 0; step < kBoundarySweeps; ++step) sweep(true);
+    sweep(false);
   }
 }
 
