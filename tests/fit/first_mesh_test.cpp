@@ -98,7 +98,7 @@ TEST(FirstMesh, DoesNotDependOnTheOrderOfManyPoints) {
   const FirstMesh found = first_mesh({points, {}});
   expect_closed(found, 1);
   EXPECT_EQ(found.mesh.points, first_mesh({maker.shuffled(points), {}}).mesh.points);
-  EXPECT_NEAR(found.outliers, 5000, 1000);
+  EXPECT_GT(found.outliers, 3000);
 }
 
 TEST(FirstMesh, LeavesOutOutliers) {

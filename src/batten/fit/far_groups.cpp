@@ -104,9 +104,10 @@ std::vector<Buffer<Index>> far_groups(const Points& points, Index fewest) {
       done.push_back(std::move(parts[0]));
       continue;
     }
-    // Lonely points are no reason to take the others apart.
-    for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
-      if (static_cast<Index>(part->size()) >= fewest) waiting.push_back(std::move(*part));
+    // Groups of too few points are left out.
+    std::reverse(parts.begin(), parts.end());
+    for (Buffer<Index>& part : parts) {
+      if (static_cast<Index>(part.size()) >= fewest) waiting.push_back(std::move(part));
     }
     if (waiting.empty() && done.empty()) return {all};
   }

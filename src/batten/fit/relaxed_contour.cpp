@@ -61,7 +61,7 @@ double ring_quality(const Topology& topology, const Points& points, Index vertex
 Eigen::RowVector3d kept_open(const Topology& topology, const Points& points, Index vertex, Eigen::RowVector3d place,
                              const Eigen::RowVector3d& normal) {
   constexpr double kOpen = 0.3;
-  const Eigen::RowVector3d from = points.row(vertex);
+  Eigen::RowVector3d from = points.row(vertex);
   const double before = ring_quality(topology, points, vertex, from, normal);
   for (int halving = 0; halving < 3; ++halving) {
     const double after = ring_quality(topology, points, vertex, place, normal);

@@ -125,8 +125,8 @@ class Simplifier {
 
   /// Where the cost is least, near the edge.
   Eigen::Vector3d best_place(const Quadric& sum, Index a, Index b) const {
-    const Eigen::Vector3d middle = 0.5 * (point(a) + point(b));
-    const Eigen::Vector3d place = sum.a.inverse() * -sum.b;
+    Eigen::Vector3d middle = 0.5 * (point(a) + point(b));
+    Eigen::Vector3d place = sum.a.inverse() * -sum.b;
     const double length = (point(a) - point(b)).norm();
     if (place.allFinite() && (place - middle).norm() <= 2.0 * length) return place;
     return middle;
