@@ -82,6 +82,7 @@ std::string file_section();
 std::string picture_section();
 std::string nearest_section();
 std::string series_section();
+std::string dynamics_section();
 
 /// For a separate process: interpolates a refined mesh of at least this many vertices and exits.
 int run_large(Index vertices);

@@ -47,12 +47,16 @@ class FaceElements {
 
   Index count() const { return static_cast<Index>(faces_.size()); }
   Index kind(Index element) const { return kinds_[element]; }
+  Index base_face(Index element) const { return base_faces_[element]; }
   /// The control face that an element is, or lies in.
   Index control_face(Index element) const { return faces_[element]; }
   /// Vertices of the base, none twice.
   std::span<const Index> vertices(Index element) const {
     return std::span<const Index>(vertices_).subspan(starts_[element], starts_[element + 1] - starts_[element]);
   }
+  /// Those of all elements, one after the other, and where an element's begin.
+  std::span<const Index> vertices() const { return vertices_; }
+  std::size_t start(Index element) const { return starts_[element]; }
   /// Elements in ascending order.
   std::span<const Use> uses(Index vertex) const {
     return std::span<const Use>(uses_).subspan(first_uses_[vertex], first_uses_[vertex + 1] - first_uses_[vertex]);

@@ -19,7 +19,7 @@ void gather(std::span<const Index> vertices, ConstValuesRef from, ShapeScratch& 
 /// Calls visit(weight, jets of the place, rows) for each place with a tangent plane: the weight is the area's. N: the
 /// points, or Eigen::Dynamic. J: the rows of a jet.
 template <int N, int J, typename Visit>
-void visit_places(ShapeEnergyKind kind, const ShapeTable& table, ShapeScratch& scratch, const Visit& visit) {
+void visit_places(ShapeEnergyKind kind, const JetTable& table, ShapeScratch& scratch, const Visit& visit) {
   using Jets = Eigen::Map<const Eigen::Matrix<double, J, N, Eigen::RowMajor>>;
   const Eigen::Index count = table.jets.cols();
   const Eigen::Map<const Eigen::Matrix<double, N, 3, Eigen::RowMajor>> points(scratch.points.data(), count, 3);
@@ -34,13 +34,13 @@ void visit_places(ShapeEnergyKind kind, const ShapeTable& table, ShapeScratch& s
 
 /// Calls body.operator()<N, J>() for the sizes of a table's elements.
 template <int J, typename Body>
-void with_points(const ShapeTable& table, const Body& body) {
+void with_points(const JetTable& table, const Body& body) {
   if (table.jets.cols() == kQuadPatchSize) return body.template operator()<kQuadPatchSize, J>();
   if (table.jets.cols() == kTrianglePatchSize) return body.template operator()<kTrianglePatchSize, J>();
   body.template operator()<Eigen::Dynamic, J>();
 }
 template <typename Body>
-void with_sizes(ShapeEnergyKind kind, const ShapeTable& table, const Body& body) {
+void with_sizes(ShapeEnergyKind kind, const JetTable& table, const Body& body) {
   switch (kind) {
     case ShapeEnergyKind::Stretch:
       return with_points<2>(table, body);
@@ -68,7 +68,7 @@ inline void add_squares(const double* f, Eigen::Index size, double* matrix) {
 
 }  // namespace
 
-void shape_matrix(ShapeEnergyKind kind, const ShapeTable& table, std::span<const Index> vertices,
+void shape_matrix(ShapeEnergyKind kind, const JetTable& table, std::span<const Index> vertices,
                   ConstValuesRef reference, ShapeScratch& scratch, double* matrix) {
   gather(vertices, reference, scratch);
   const Eigen::Index count = table.jets.cols();
@@ -86,7 +86,7 @@ void shape_matrix(ShapeEnergyKind kind, const ShapeTable& table, std::span<const
   });
 }
 
-double shape_energy_of(ShapeEnergyKind kind, const ShapeTable& table, std::span<const Index> vertices,
+double shape_energy_of(ShapeEnergyKind kind, const JetTable& table, std::span<const Index> vertices,
                        ConstValuesRef control, ShapeScratch& scratch) {
   gather(vertices, control, scratch);
   double sum = 0.0;
@@ -96,6 +96,20 @@ double shape_energy_of(ShapeEnergyKind kind, const ShapeTable& table, std::span<
     });
   });
   return sum;
+}
+
+void shape_gradient(ShapeEnergyKind kind, const JetTable& table, std::span<const Index> vertices,
+                    ConstValuesRef reference, ShapeScratch& scratch, double* gradient) {
+  gather(vertices, reference, scratch);
+  Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>> sum(
+      gradient, static_cast<Eigen::Index>(vertices.size()), 3);
+  with_sizes(kind, table, [&]<int N, int J>() {
+    visit_places<N, J>(kind, table, scratch, [&](double weight, const auto& jets, const auto& by_jet) {
+      const auto values = by_jet.lazyProduct(scratch.jet.template topRows<J>()).eval();
+      const auto by_derivatives = (weight * by_jet.transpose().lazyProduct(values)).eval();
+      sum += jets.transpose().lazyProduct(by_derivatives);
+    });
+  });
 }
 
 void ElementOrder::sort(std::span<const Index> vertices) {

@@ -3,8 +3,8 @@
 #include <Eigen/SparseCore>
 #include <span>
 
+#include "batten/energy/jet_tables.h"
 #include "batten/energy/shape_rows.h"
-#include "batten/energy/shape_tables.h"
 #include "batten/types.h"
 
 namespace batten {
@@ -18,12 +18,16 @@ struct ShapeScratch {
 };
 
 /// matrix: n^2 numbers for n vertices, row by row; symmetric to the last bit.
-void shape_matrix(ShapeEnergyKind kind, const ShapeTable& table, std::span<const Index> vertices,
+void shape_matrix(ShapeEnergyKind kind, const JetTable& table, std::span<const Index> vertices,
                   ConstValuesRef reference, ShapeScratch& scratch, double* matrix);
 
 /// The energy of the element's surface in its own lengths.
-double shape_energy_of(ShapeEnergyKind kind, const ShapeTable& table, std::span<const Index> vertices,
+double shape_energy_of(ShapeEnergyKind kind, const JetTable& table, std::span<const Index> vertices,
                        ConstValuesRef control, ShapeScratch& scratch);
+
+/// Adds the matrix times the reference itself to `gradient`, three numbers a vertex, without the matrix.
+void shape_gradient(ShapeEnergyKind kind, const JetTable& table, std::span<const Index> vertices,
+                    ConstValuesRef reference, ShapeScratch& scratch, double* gradient);
 
 /// The vertices of an element in ascending order, to walk along a row's columns.
 class ElementOrder {

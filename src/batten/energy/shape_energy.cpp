@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 
+#include "batten/energy/jet_tables.h"
 #include "batten/energy/matrix_rows.h"
 #include "batten/energy/shape_elements.h"
 #include "batten/energy/shape_rows.h"
-#include "batten/energy/shape_tables.h"
 #include "batten/error.h"
 #include "batten/mesh/checked_values.h"
 #include "batten/parallel/parallel.h"
@@ -32,14 +33,17 @@ struct ShapeEnergy::Parts {
   SurfacePatches patches;
   ShapeEnergyKind kind;
   FaceElements elements;
-  std::vector<ShapeTable> tables;
+  std::vector<JetTable> tables;
   Matrix pattern;  ///< K with zeros for entries
 
   Parts(const SurfacePatches& patches_in, ShapeEnergyKind kind_in, const QuadratureOptions& options,
         const Progress& progress)
-      : patches(patches_in), kind(kind_in), elements(patches), tables(shape_tables(patches, elements, kind, options)) {
+      : patches(patches_in),
+        kind(kind_in),
+        elements(patches),
+        tables(jet_tables(patches, elements, shape_jet_rows(kind), options)) {
     std::vector<Buffer<Index>> points;
-    for (const ShapeTable& table : tables) points.push_back(table.points);
+    for (const JetTable& table : tables) points.push_back(table.points);
     elements.list_vertices(patches, points);
     const Index count = patches.base().vertex_count();
     pattern = matrix_of_rows<PatternScratch>(
@@ -58,11 +62,23 @@ struct ShapeEnergy::Parts {
       throw Error(ErrorCode::BadShape, "a reference surface needs control points of three columns");
     require_finite(points, "control points");
   }
-  void add_elements(Index begin, Index end, ConstValuesRef reference, Buffer<double>& numbers, Matrix& matrix) const;
+  void add_elements(Index begin, Index end, ConstValuesRef reference, std::span<const double> face_factors,
+                    Buffer<double>& numbers, Matrix& matrix) const;
+  /// Of the control face that an element lies in.
+  double factor(Index element, std::span<const double> face_factors) const {
+    return face_factors[face_factors.size() == 1 ? 0 : static_cast<std::size_t>(elements.control_face(element))];
+  }
+  void require_factors(std::span<const double> face_factors) const {
+    const auto faces = static_cast<std::size_t>(patches.topology().face_count());
+    if (face_factors.size() == 1 || face_factors.size() == faces) return;
+    throw Error(ErrorCode::BadShape, "there are " + std::to_string(face_factors.size()) + " factors, but the mesh has " +
+                                         std::to_string(faces) + " faces; give one for all faces or one a face");
+  }
 };
 
 /// The matrices first, in parallel; then every row sums its own entries, in the order of the elements.
-void ShapeEnergy::Parts::add_elements(Index begin, Index end, ConstValuesRef reference, Buffer<double>& numbers,
+void ShapeEnergy::Parts::add_elements(Index begin, Index end, ConstValuesRef reference,
+                                      std::span<const double> face_factors, Buffer<double>& numbers,
                                       Matrix& matrix) const {
   Buffer<std::size_t> starts(static_cast<std::size_t>(end - begin) + 1, 0);
   for (Index e = begin; e < end; ++e) {
@@ -75,8 +91,10 @@ void ShapeEnergy::Parts::add_elements(Index begin, Index end, ConstValuesRef ref
       [&](std::ptrdiff_t first, std::ptrdiff_t last) {
         ShapeScratch scratch;
         for (auto i = static_cast<Index>(first); i < static_cast<Index>(last); ++i) {
-          shape_matrix(kind, tables[elements.kind(begin + i)], elements.vertices(begin + i), reference, scratch,
-                       numbers.data() + starts[i]);
+          double* const to = numbers.data() + starts[i];
+          shape_matrix(kind, tables[elements.kind(begin + i)], elements.vertices(begin + i), reference, scratch, to);
+          const double by = factor(begin + i, face_factors);
+          for (std::size_t e = starts[i]; by != 1.0 && e < starts[i + 1]; ++e) numbers[e] *= by;
         }
       },
       kElementBlock);
@@ -104,13 +122,20 @@ const SurfacePatches& ShapeEnergy::patches() const { return parts_->patches; }
 ShapeEnergyKind ShapeEnergy::kind() const { return parts_->kind; }
 
 ShapeEnergy::Matrix ShapeEnergy::matrix(ConstValuesRef reference, const Progress& progress) const {
+  constexpr double kOne = 1.0;
+  return matrix(reference, {&kOne, 1}, progress);
+}
+
+ShapeEnergy::Matrix ShapeEnergy::matrix(ConstValuesRef reference, std::span<const double> face_factors,
+                                        const Progress& progress) const {
   parts_->require_base_points(reference);
+  parts_->require_factors(face_factors);
   Matrix matrix = parts_->pattern;
   Buffer<double> numbers;
   const Index count = parts_->elements.count();
   for (Index begin = 0; begin < count; begin += kElementsAtOnce) {
     report_progress(progress, static_cast<double>(begin) / count);
-    parts_->add_elements(begin, std::min(count, begin + kElementsAtOnce), reference, numbers, matrix);
+    parts_->add_elements(begin, std::min(count, begin + kElementsAtOnce), reference, face_factors, numbers, matrix);
   }
   report_progress(progress, 1.0);
   return matrix;
@@ -130,6 +155,28 @@ double ShapeEnergy::energy(ConstValuesRef control) const {
         return sum;
       },
       [](double a, double b) { return a + b; });
+}
+
+const FaceElements& ShapeEnergy::elements() const { return parts_->elements; }
+
+Buffer<double> ShapeEnergy::element_gradients(const Points& reference, std::span<const double> face_factors) const {
+  parts_->require_base_points(reference);
+  parts_->require_factors(face_factors);
+  const FaceElements& elements = parts_->elements;
+  Buffer<double> gradients(3 * elements.vertices().size(), 0.0);
+  parallel_for(
+      elements.count(),
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        ShapeScratch scratch;
+        for (auto e = static_cast<Index>(begin); e < static_cast<Index>(end); ++e) {
+          shape_gradient(parts_->kind, parts_->tables[elements.kind(e)], elements.vertices(e), reference, scratch,
+                         gradients.data() + 3 * elements.start(e));
+          const double by = parts_->factor(e, face_factors);
+          for (std::size_t i = 3 * elements.start(e); i < 3 * elements.start(e + 1); ++i) gradients[i] *= by;
+        }
+      },
+      kElementBlock);
+  return gradients;
 }
 
 }  // namespace batten

@@ -15,13 +15,17 @@
 #pragma once
 #include <Eigen/SparseCore>
 #include <memory>
+#include <span>
 
+#include "batten/buffer.h"
 #include "batten/energy/shape_energy_kind.h"
 #include "batten/patch/surface_patches.h"
 #include "batten/progress.h"
 #include "batten/surface/quadrature.h"
 
 namespace batten {
+
+class FaceElements;
 
 /// Three points a side, and one halving: spheres come out no rounder with more (docs/decisions/011-fair-solver.md).
 inline constexpr QuadratureOptions kShapeQuadrature{3, 1};
@@ -46,10 +50,17 @@ class ShapeEnergy {
   /// plane are left out. Two to three microseconds a regular face; next to irregular vertices some ten times as long.
   /// Throws Error(BadShape, NotFinite, Cancelled).
   Matrix matrix(ConstValuesRef reference, const Progress& progress = {}) const;
+  /// The same with a factor for each face of the control mesh, or one for all.
+  Matrix matrix(ConstValuesRef reference, std::span<const double> face_factors, const Progress& progress = {}) const;
 
   /// E of a surface in its own lengths, in (unit of the points)^(2 - 2 order), order 0 to 2 for Stretch to Variation:
   /// p^T matrix(P) p without the matrix. Throws Error(BadShape, NotFinite).
   double energy(ConstValuesRef control) const;
+
+  /// The faces as elements over the vertices of the base (energy/face_elements.h).
+  const FaceElements& elements() const;
+  /// K_e P of each element e, with the reference P itself: three numbers for each of its vertices, element by element.
+  Buffer<double> element_gradients(const Points& reference, std::span<const double> face_factors) const;
 
  private:
   struct Parts;

@@ -143,6 +143,15 @@ struct SurfaceEnergy::Parts {
     }
   }
 
+  /// For the row that belongs to a vertex's place in an element.
+  Eigen::RowVector3d gradient(EnergyKind kind, const EnergyElements::Use& use, const Points& base_points) const {
+    const ElementRow row = element_row(kind, use);
+    const std::span<const Index> vertices = elements.vertices(use.element);
+    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+    for (std::size_t j = 0; j < vertices.size(); ++j) sum += row(static_cast<Index>(j)) * base_points.row(vertices[j]);
+    return sum;
+  }
+
   Matrix base_matrix(EnergyKind kind, const Progress& progress) const;
   Matrix control_matrix(EnergyKind kind, const Progress& progress) const;
   template <int Columns>
@@ -273,6 +282,24 @@ double SurfaceEnergy::energy(EnergyKind kind, ConstValuesRef control) const {
                      return control.middleRows(begin, count).cwiseProduct(gradient.middleRows(begin, count)).sum();
                    },
                    [](double a, double b) { return a + b; });
+}
+
+const FaceElements& SurfaceEnergy::elements() const { return parts_->elements; }
+
+Buffer<double> SurfaceEnergy::element_gradients(EnergyKind kind, const Points& base_points) const {
+  const EnergyElements& elements = parts_->elements;
+  Buffer<double> gradients(3 * elements.vertices().size());
+  parallel_for(
+      elements.count(),
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        for (auto e = static_cast<Index>(begin); e < static_cast<Index>(end); ++e) {
+          const auto size = static_cast<Index>(elements.vertices(e).size());
+          Eigen::Map<Points> to(gradients.data() + 3 * elements.start(e), size, 3);
+          for (Index place = 0; place < size; ++place) to.row(place) = parts_->gradient(kind, {e, place}, base_points);
+        }
+      },
+      kVertexBlock);
+  return gradients;
 }
 
 }  // namespace batten

@@ -15,11 +15,14 @@
 #include <optional>
 #include <vector>
 
+#include "batten/buffer.h"
 #include "batten/energy/energy_kind.h"
 #include "batten/patch/surface_patches.h"
 #include "batten/progress.h"
 
 namespace batten {
+
+class FaceElements;
 
 /// Coefficients are finite and not negative: one for all faces, or one a face of the control mesh.
 struct EnergyOptions {
@@ -61,6 +64,12 @@ class SurfaceEnergy {
 
   /// E(P), summed over the columns. control: V-by-k. Throws Error(BadShape, NotFinite).
   double energy(EnergyKind kind, ConstValuesRef control) const;
+
+  /// The faces as elements over the vertices of the base (energy/face_elements.h).
+  const FaceElements& elements() const;
+  /// K_e P of each element e: three numbers for each of its vertices, element by element. base_points: of the base,
+  /// with three columns.
+  Buffer<double> element_gradients(EnergyKind kind, const Points& base_points) const;
 
  private:
   struct Parts;

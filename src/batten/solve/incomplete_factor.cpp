@@ -24,30 +24,10 @@ IncompleteFactor::IncompleteFactor(const Eigen::SparseMatrix<double, Eigen::RowM
   factor.setInitialShift(kShift);
   factor.compute(columns);
   const auto& lower = factor.matrixL();
-  starts_.assign(lower.outerIndexPtr(), lower.outerIndexPtr() + lower.cols() + 1);
-  rows_.assign(lower.innerIndexPtr(), lower.innerIndexPtr() + starts_.back());
-  weights_.assign(lower.valuePtr(), lower.valuePtr() + starts_.back());
+  lower_.starts.assign(lower.outerIndexPtr(), lower.outerIndexPtr() + lower.cols() + 1);
+  lower_.rows.assign(lower.innerIndexPtr(), lower.innerIndexPtr() + lower_.starts.back());
+  lower_.weights.assign(lower.valuePtr(), lower.valuePtr() + lower_.starts.back());
   scale_.assign(factor.scalingS().data(), factor.scalingS().data() + factor.scalingS().size());
-}
-
-void IncompleteFactor::solve_four(Buffer<Double4>& x) const {
-  const auto count = static_cast<int>(x.size());
-  for (int j = 0; j < count; ++j) {
-    const Double4 value = x[j] / weights_[starts_[j]];
-    x[j] = value;
-    for (int e = starts_[j] + 1; e < starts_[j + 1]; ++e) x[rows_[e]] -= weights_[e] * value;
-  }
-  for (int j = count - 1; j >= 0; --j) {
-    Double4 even = x[j];
-    Double4 odd{};
-    int e = starts_[j] + 1;
-    for (; e + 1 < starts_[j + 1]; e += 2) {
-      even -= weights_[e] * x[rows_[e]];
-      odd -= weights_[e + 1] * x[rows_[e + 1]];
-    }
-    if (e < starts_[j + 1]) even -= weights_[e] * x[rows_[e]];
-    x[j] = (even + odd) / weights_[starts_[j]];
-  }
 }
 
 void IncompleteFactor::solve(const Values& b, Values& x) const {
@@ -60,7 +40,7 @@ void IncompleteFactor::solve(const Values& b, Values& x) const {
       for (Eigen::Index c = 0; c < columns; ++c) row[c] = b(i, first + c) * scale_[i];
       four[i] = row;
     }
-    solve_four(four);
+    lower_.solve(four);
     for (Eigen::Index i = 0; i < b.rows(); ++i) {
       for (Eigen::Index c = 0; c < columns; ++c) x(i, first + c) = four[i][c] * scale_[i];
     }

@@ -3,7 +3,7 @@
 #include <Eigen/SparseCore>
 
 #include "batten/buffer.h"
-#include "batten/double4.h"
+#include "batten/solve/lower_factor.h"
 #include "batten/types.h"
 
 namespace batten {
@@ -20,11 +20,7 @@ class IncompleteFactor {
   void solve(const Values& b, Values& x) const;
 
  private:
-  void solve_four(Buffer<Double4>& x) const;
-
-  Buffer<int> starts_;  ///< of the columns of L, the diagonal first
-  Buffer<int> rows_;
-  Buffer<double> weights_;
+  LowerFactor lower_;
   Buffer<double> scale_;
 };
 

@@ -1,6 +1,5 @@
-#include "batten/energy/shape_tables.h"
+#include "batten/energy/jet_tables.h"
 
-#include "batten/energy/shape_rows.h"
 #include "batten/parallel/parallel.h"
 #include "batten/patch/face_types.h"
 
@@ -17,17 +16,19 @@ Buffer<Index> used_columns(const Eigen::Ref<const Eigen::MatrixXd, 0, Eigen::Str
   return used;
 }
 
-ShapeTable shape_table(const SurfacePatches& patches, const FaceElements& elements, Index kind,
-                       std::span<const JetRow> rows, const QuadratureOptions& options) {
+}  // namespace
+
+JetTable jet_table(const SurfacePatches& patches, const FaceElements& elements, Index kind,
+                   std::span<const JetRow> rows, const SurfaceQuadrature& quadrature) {
   const RingTypes& types = patches.face_types().ring_types();
   const bool is_ring = elements.is_ring(kind);
   const Index type = is_ring ? kind : RingTypes::kPatch;
-  const SurfaceQuadrature quadrature = face_quadrature(patches.quads(), types, type, options);
   const auto count = static_cast<Eigen::Index>(rows.size());
   const auto places = static_cast<Eigen::Index>(quadrature.places.size());
   const Eigen::MatrixXd by_distinct =
       is_ring ? Eigen::MatrixXd() : layout_points(patches.quads(), elements.layout(kind));
-  ShapeTable table;
+  JetTable table;
+  table.places = quadrature.places;
   table.weights = quadrature.weights;
   Eigen::MatrixXd jets;
   FaceJet jet;
@@ -49,14 +50,15 @@ ShapeTable shape_table(const SurfacePatches& patches, const FaceElements& elemen
   return table;
 }
 
-}  // namespace
-
-std::vector<ShapeTable> shape_tables(const SurfacePatches& patches, const FaceElements& elements, ShapeEnergyKind kind,
-                                     const QuadratureOptions& options) {
-  std::vector<ShapeTable> tables(static_cast<std::size_t>(elements.kind_count()));
+std::vector<JetTable> jet_tables(const SurfacePatches& patches, const FaceElements& elements,
+                                 std::span<const JetRow> rows, const QuadratureOptions& options) {
+  std::vector<JetTable> tables(static_cast<std::size_t>(elements.kind_count()));
   parallel_for_each(elements.kind_count(), [&](std::ptrdiff_t k) {
-    tables[static_cast<std::size_t>(k)] =
-        shape_table(patches, elements, static_cast<Index>(k), shape_jet_rows(kind), options);
+    const auto kind = static_cast<Index>(k);
+    const Index type = elements.is_ring(kind) ? kind : RingTypes::kPatch;
+    const SurfaceQuadrature quadrature =
+        face_quadrature(patches.quads(), patches.face_types().ring_types(), type, options);
+    tables[static_cast<std::size_t>(k)] = jet_table(patches, elements, kind, rows, quadrature);
   });
   return tables;
 }
