@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "batten/fit/orientation.h"
 #include "batten/fit/winding_field.h"
 #include "fit/clouds.h"
 #include "support/errors.h"
@@ -43,6 +44,21 @@ TEST(EstimatedNormals, PointAwayFromEachOtherOnAThinPlate) {
   }
   const Points normals = estimate_normals(points);
   for (Index i = 0; i < 4000; ++i) EXPECT_GT(normals(i, 2) * (i % 2 == 0 ? 1.0 : -1.0), 0.0) << points.row(i);
+}
+
+/// The two sides of a leaf half a spacing thick, with its edge: each point's nearest neighbour is on the other side.
+TEST(OrientedNormals, AreOppositeOnTheTwoSidesOfALeaf) {
+  constexpr Index kSide = 20;
+  Points points(2 * kSide * kSide, 3);
+  Points normals(points.rows(), 3);
+  for (Index i = 0; i < kSide * kSide; ++i) {
+    for (const Index side : {0, 1}) {
+      points.row(2 * i + side) << i % kSide, i / kSide, 0.5 * side;
+      normals.row(2 * i + side) << 0.0, 0.0, (i * 7 + side) % 3 == 0 ? 1.0 : -1.0;
+    }
+  }
+  orient_normals(points, find_neighbours(PointTree(points), 8), normals);
+  for (Index i = 0; i < static_cast<Index>(points.rows()); ++i) EXPECT_EQ(normals(i, 2), i % 2 == 0 ? -1.0 : 1.0);
 }
 
 TEST(EstimatedNormals, DoNotDependOnTheOrderOfPoints) {

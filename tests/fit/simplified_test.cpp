@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
+#include <algorithm>
+#include <random>
+#include <vector>
 
 #include "batten/fit/matching.h"
 #include "batten/fit/paired_quads.h"
@@ -102,15 +104,57 @@ TEST(QuadTurns, MakeQuadsMoreRegular) {
   EXPECT_EQ(regular.face_vertices, faces) << "nothing is to be gained";
 }
 
-/// Petersen's graph, where greedy pairs get stuck, and a path whose inner pair is the cheapest.
-TEST(Matching, FindsAsManyPairsAsThereAre) {
-  std::vector<MatchedPair> pairs;
-  for (Index i = 0; i < 5; ++i) {
-    pairs.push_back({0.0, i, (i + 1) % 5});
-    pairs.push_back({0.0, i, i + 5});
-    pairs.push_back({0.0, i + 5, (i + 2) % 5 + 5});
+TEST(QuadTurns, KeepSmallMeshesManifold) {
+  for (Index vertices = 9; vertices < 40; ++vertices) {
+    Mesh quads = paired_quads(simplified(triangulated(torus(20, 10)), vertices));
+    turn_quad_edges(quads);
+    const test::ManifoldReport report = test::examine(quads);
+    EXPECT_TRUE(report.valid) << vertices << ": " << report.reason;
   }
-  for (const Index partner : maximum_matching(10, pairs, {})) EXPECT_GE(partner, 0);
+}
+
+/// How many pairs a graph of few nodes can have at most, by trying all.
+int most_pairs(unsigned free, Index nodes, const std::vector<MatchedPair>& pairs, std::vector<int>& known) {
+  int& most = known[free];
+  if (most >= 0) return most;
+  most = 0;
+  Index first = 0;
+  while (first < nodes && (free >> first & 1U) == 0) ++first;
+  if (first == nodes) return most;
+  int best = most_pairs(free & ~(1U << first), nodes, pairs, known);
+  for (const MatchedPair& pair : pairs) {
+    if (pair.a != first && pair.b != first) continue;
+    const unsigned both = 1U << pair.a | 1U << pair.b;
+    if ((free & both) == both) best = std::max(best, 1 + most_pairs(free & ~both, nodes, pairs, known));
+  }
+  return known[free] = best;
+}
+
+TEST(Matching, FindsAsManyPairsAsThereAre) {
+  std::mt19937 random(5);
+  constexpr Index kNodes = 12;
+  for (int round = 0; round < 300; ++round) {
+    std::vector<MatchedPair> pairs;
+    for (Index a = 0; a < kNodes; ++a) {
+      for (Index b = a + 1; b < kNodes; ++b) {
+        if (random() % 5 == 0) pairs.push_back({random() % 100 * 0.01, a, b});
+      }
+    }
+    std::sort(pairs.begin(), pairs.end());
+    const std::vector<Index> partner = maximum_matching(kNodes, pairs, {0.2, 0.5});
+    int count = 0;
+    for (Index node = 0; node < kNodes; ++node) {
+      if (partner[node] < 0) continue;
+      EXPECT_EQ(partner[partner[node]], node);
+      ++count;
+    }
+    std::vector<int> known(1U << kNodes, -1);
+    EXPECT_EQ(count, 2 * most_pairs((1U << kNodes) - 1U, kNodes, pairs, known));
+  }
+}
+
+/// A path whose inner pair is the cheapest: it is given up for two pairs.
+TEST(Matching, TakesMorePairsBeforeCheaperOnes) {
   const std::vector<Index> path = maximum_matching(4, {{0.1, 1, 2}, {0.5, 0, 1}, {0.5, 2, 3}}, {0.3});
   EXPECT_EQ(path, (std::vector<Index>{1, 0, 3, 2}));
 }

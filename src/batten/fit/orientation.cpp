@@ -90,7 +90,7 @@ SideStep side_step(const Points& points, const Points& normals, Index from, Inde
   const Eigen::RowVector3d b = normals.row(to);
   const double agreement = a.dot(b) - 2.0 * along.dot(a) * along.dot(b);
   const double steep = std::max(std::abs(along.dot(a)), std::abs(along.dot(b)));
-  return {1.0 - std::abs(agreement) + 0.3 * steep * steep, to, agreement >= 0.0};
+  return {1.0 - std::abs(agreement) + 0.1 * steep * steep, to, agreement >= 0.0};
 }
 
 std::vector<Index> parts_of_graph(const NeighbourGraph& graph, Index size, Index& count) {
