@@ -1,0 +1,16 @@
+/// \file Triangle meshes made coarser by edge collapses.
+#pragma once
+#include "batten/mesh/mesh.h"
+#include "batten/progress.h"
+
+namespace batten {
+
+/// Collapses edges, those that move the surface least first, until `vertices` are left or none may go. The cost is the
+/// area-weighted squared distance from the planes of the triangles that became one (Garland and Heckbert 1997, key
+/// GH97) and, with a small weight, from their corners, which keeps triangles in flat places of similar size. No
+/// collapse changes the topology (the link condition, Dey and others 1999, key DEGN99), turns a triangle over or
+/// leaves a valence above 12. Boundaries keep their course. `mesh`: triangles that Topology accepts; tags are dropped.
+/// O(F log F).
+Mesh simplified(const Mesh& mesh, Index vertices, const Progress& progress = {});
+
+}  // namespace batten

@@ -1,0 +1,163 @@
+#include "batten/fit/simplified.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+#include "batten/fit/matching.h"
+#include "batten/fit/paired_quads.h"
+#include "batten/fit/quad_turns.h"
+#include "batten/mesh/primitives.h"
+#include "batten/mesh/repair.h"
+#include "batten/mesh/summary.h"
+#include "batten/mesh/triangulate.h"
+#include "fit/clouds.h"
+#include "mesh/manifold.h"
+
+namespace batten {
+namespace {
+
+/// A cube of n by n quads a side, as triangles.
+Mesh fine_cube(Index n) {
+  Mesh mesh;
+  const Mesh side = grid(n, n);
+  for (int face = 0; face < 6; ++face) {
+    const int axis = face / 2;
+    const double sign = face % 2 == 0 ? 1.0 : -1.0;
+    const Index first = mesh.vertex_count();
+    mesh.points.conservativeResize(first + side.vertex_count(), 3);
+    for (Index v = 0; v < side.vertex_count(); ++v) {
+      mesh.points(first + v, axis) = sign;
+      mesh.points(first + v, (axis + 1) % 3) = sign * side.points(v, 0);
+      mesh.points(first + v, (axis + 2) % 3) = side.points(v, 1);
+    }
+    for (Index f = 0; f < side.face_count(); ++f) {
+      const Index* c = side.face_vertices.data() + side.face_offsets[f];
+      mesh.add_face({first + c[0], first + c[1], first + c[2], first + c[3]});
+    }
+  }
+  return triangulated(repair(mesh).mesh);
+}
+
+TEST(Simplified, KeepsACubeExactly) {
+  const Mesh cube = simplified(fine_cube(8), 60);
+  const test::ManifoldReport report = test::examine(cube);
+  EXPECT_TRUE(report.valid) << report.reason;
+  EXPECT_EQ(report.euler, 2);
+  EXPECT_EQ(cube.vertex_count(), 60);
+  EXPECT_NEAR(report.volume, 8.0, 0.03);
+}
+
+TEST(Simplified, KeepsGenusAndBoundaries) {
+  const Mesh ring = simplified(triangulated(torus(60, 24)), 60);
+  EXPECT_EQ(test::examine(ring).euler, 0);
+  EXPECT_EQ(ring.vertex_count(), 60);
+  const Mesh sheet = simplified(triangulated(grid(20, 20)), 30);
+  const test::ManifoldReport report = test::examine(sheet);
+  EXPECT_EQ(report.boundary_loop_count, 1);
+  EXPECT_EQ(report.euler, 1);
+  EXPECT_NEAR(sheet.points.col(0).maxCoeff(), 1.0, 0.01);
+  EXPECT_NEAR(sheet.points.col(1).minCoeff(), -1.0, 0.01);
+}
+
+TEST(Simplified, StopsWhereTheTopologyNeedsTheVertices) {
+  const Mesh least = simplified(triangulated(torus(12, 8)), 1);
+  const test::ManifoldReport report = test::examine(least);
+  EXPECT_TRUE(report.valid) << report.reason;
+  EXPECT_EQ(report.euler, 0);
+  EXPECT_GE(least.vertex_count(), 7) << "a torus has at least seven vertices";
+}
+
+/// Petersen: every bridgeless cubic graph, such as the dual of a closed triangle mesh, has a perfect matching.
+TEST(PairedQuads, LeavesNoTriangleOnClosedSurfaces) {
+  for (const Index vertices : {40, 100, 333}) {
+    const Mesh quads = paired_quads(simplified(triangulated(torus(40, 20)), vertices));
+    const test::ManifoldReport report = test::examine(quads);
+    EXPECT_TRUE(report.valid) << report.reason;
+    EXPECT_EQ(report.euler, 0);
+    for (Index f = 0; f < quads.face_count(); ++f) EXPECT_EQ(quads.face_size(f), 4);
+  }
+}
+
+TEST(PairedQuads, FindsTheGridThatWasCutUp) {
+  const Mesh quads = paired_quads(triangulated(grid(6, 5)));
+  EXPECT_EQ(quads.face_count(), 30);
+}
+
+TEST(QuadTurns, MakeQuadsMoreRegular) {
+  Mesh quads = paired_quads(simplified(triangulated(torus(40, 20)), 200));
+  const auto irregular = [](const Mesh& mesh) {
+    const MeshSummary summary = summarize(Topology(mesh));
+    return mesh.vertex_count() - summary.valences.at(4);
+  };
+  const Index before = irregular(quads);
+  turn_quad_edges(quads);
+  const test::ManifoldReport report = test::examine(quads);
+  EXPECT_TRUE(report.valid) << report.reason;
+  EXPECT_EQ(report.euler, 0);
+  EXPECT_LT(irregular(quads), 0.85 * before);
+  Mesh regular = torus(12, 8);
+  const Buffer<Index> faces = regular.face_vertices;
+  turn_quad_edges(regular);
+  EXPECT_EQ(regular.face_vertices, faces) << "nothing is to be gained";
+}
+
+TEST(QuadTurns, KeepSmallMeshesManifold) {
+  for (Index vertices = 9; vertices < 40; ++vertices) {
+    Mesh quads = paired_quads(simplified(triangulated(torus(20, 10)), vertices));
+    turn_quad_edges(quads);
+    const test::ManifoldReport report = test::examine(quads);
+    EXPECT_TRUE(report.valid) << vertices << ": " << report.reason;
+  }
+}
+
+/// How many pairs a graph of few nodes can have at most, by trying all.
+int most_pairs(unsigned free, Index nodes, const std::vector<MatchedPair>& pairs, std::vector<int>& known) {
+  int& most = known[free];
+  if (most >= 0) return most;
+  most = 0;
+  Index first = 0;
+  while (first < nodes && (free >> first & 1U) == 0) ++first;
+  if (first == nodes) return most;
+  int best = most_pairs(free & ~(1U << first), nodes, pairs, known);
+  for (const MatchedPair& pair : pairs) {
+    if (pair.a != first && pair.b != first) continue;
+    const unsigned both = 1U << pair.a | 1U << pair.b;
+    if ((free & both) == both) best = std::max(best, 1 + most_pairs(free & ~both, nodes, pairs, known));
+  }
+  return known[free] = best;
+}
+
+TEST(Matching, FindsAsManyPairsAsThereAre) {
+  std::mt19937 random(5);
+  constexpr Index kNodes = 12;
+  for (int round = 0; round < 300; ++round) {
+    std::vector<MatchedPair> pairs;
+    for (Index a = 0; a < kNodes; ++a) {
+      for (Index b = a + 1; b < kNodes; ++b) {
+        if (random() % 5 == 0) pairs.push_back({random() % 100 * 0.01, a, b});
+      }
+    }
+    std::sort(pairs.begin(), pairs.end());
+    const std::vector<Index> partner = maximum_matching(kNodes, pairs, {0.2, 0.5});
+    int count = 0;
+    for (Index node = 0; node < kNodes; ++node) {
+      if (partner[node] < 0) continue;
+      EXPECT_EQ(partner[partner[node]], node);
+      ++count;
+    }
+    std::vector<int> known(1U << kNodes, -1);
+    EXPECT_EQ(count, 2 * most_pairs((1U << kNodes) - 1U, kNodes, pairs, known));
+  }
+}
+
+/// A path whose inner pair is the cheapest: it is given up for two pairs.
+TEST(Matching, TakesMorePairsBeforeCheaperOnes) {
+  const std::vector<Index> path = maximum_matching(4, {{0.1, 1, 2}, {0.5, 0, 1}, {0.5, 2, 3}}, {0.3});
+  EXPECT_EQ(path, (std::vector<Index>{1, 0, 3, 2}));
+}
+
+}  // namespace
+}  // namespace batten
