@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/arguments.h"
+#include "cli/fit_arguments.h"
 
 namespace batten::cli {
 
@@ -17,6 +18,7 @@ void add_sharpen(CLI::App& app, SharpenArguments& arguments, int& status);
 void add_bands(CLI::App& app, BandsArguments& arguments, int& status);
 void add_texture(CLI::App& app, TextureArguments& arguments, int& status);
 void add_morph(CLI::App& app, MorphArguments& arguments, int& status);
+void add_fit(CLI::App& app, FitArguments& arguments, int& status);
 void add_medial(CLI::App& app, MedialArguments& arguments, int& status);
 
 }  // namespace batten::cli
