@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "batten/fit/field_grid.h"
 #include "batten/fit/winding_field.h"
 #include "batten/parallel/parallel.h"
 #include "batten/quantile.h"
@@ -65,17 +66,6 @@ void take_sides(CloudSamples& samples, const Points& turned) {
   }
 }
 
-void fill_grid(ValueGrid& grid, const WindingField& field, double level, const Progress& progress) {
-  const std::ptrdiff_t rows = static_cast<std::ptrdiff_t>(grid.nodes[1]) * grid.nodes[2];
-  const auto fill = [&](std::ptrdiff_t row) {
-    const auto j = static_cast<Index>(row % grid.nodes[1]);
-    const auto k = static_cast<Index>(row / grid.nodes[1]);
-    for (Index i = 0; i < grid.nodes[0]; ++i)
-      grid.values[grid.node(i, j, k)] = static_cast<float>(field.value(grid.place(i, j, k)) - level);
-  };
-  parallel_for_each(rows, fill, progress);
-}
-
 }  // namespace
 
 CloudField::CloudField(CloudSamples prepared, const Progress& progress)
@@ -89,7 +79,7 @@ CloudField::CloudField(CloudSamples prepared, const Progress& progress)
   const Eigen::RowVector3d low = samples.points.colwise().minCoeff().array() - margin;
   const Eigen::RowVector3d high = samples.points.colwise().maxCoeff().array() + margin;
   grid = grid_over(low, high, spacing);
-  fill_grid(grid, field, level, progress);
+  fill_from_field(grid, field, level, samples.points, progress);
 }
 
 Eigen::RowVector3d CloudField::nearest_place(const Eigen::RowVector3d& place, const Eigen::RowVector3d& normal) const {

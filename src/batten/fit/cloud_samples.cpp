@@ -22,15 +22,11 @@ namespace {
 
 constexpr Index kCloudNeighbours = 12;
 constexpr Index kSpacingNeighbours = 6;
+constexpr Index kFewestPlaces = 20;
 
-void require_cloud(const PointCloud& cloud) {
-  require_finite(cloud.points, "points");
-  if (cloud.normals.rows() == 0) return;
-  if (cloud.normals.rows() != cloud.points.rows())
-    throw Error(ErrorCode::BadShape, "a cloud has a normal for each point or none: " +
-                                         std::to_string(cloud.normals.rows()) + " normals of " +
-                                         std::to_string(cloud.points.rows()) + " points");
-  require_finite(cloud.normals, "normals");
+/// Too few points, or all on a line.
+[[noreturn]] void refuse_cloud() {
+  throw Error(ErrorCode::BadArgument, "a first mesh needs points at 20 places or more that are not on one line");
 }
 
 /// Brings points into the unit of samples.
@@ -41,7 +37,7 @@ Points in_own_unit(const Points& points, CloudSamples& samples) {
   const Eigen::RowVector3d middle = 0.5 * (box.low + box.high);
   const double size = (box.high - box.low).maxCoeff();
   if (!(size > 1e-12 * box.high.cwiseAbs().cwiseMax(box.low.cwiseAbs()).maxCoeff()))
-    throw Error(ErrorCode::BadArgument, "a first mesh needs points at four places or more that are not on one line");
+    refuse_cloud();
   scaled.rowwise() -= middle;
   scaled /= size;
   samples.centre = middle / scale;
@@ -88,14 +84,13 @@ void sort_cloud(CloudSamples& samples) {
 }
 
 void require_spread(const Points& points) {
-  const std::string needs = "a first mesh needs points at four places or more that are not on one line";
-  if (points.rows() < 4) throw Error(ErrorCode::BadArgument, needs);
+  if (points.rows() < kFewestPlaces) refuse_cloud();
   const Eigen::RowVector3d first = points.row(0);
   const Eigen::RowVector3d along = (points.row(points.rows() - 1) - first).normalized();
   double off = 0.0;
   for (Eigen::Index row = 0; row < points.rows(); ++row)
     off = std::max(off, (points.row(row) - first).cross(along).norm());
-  if (!(off > 1e-9)) throw Error(ErrorCode::BadArgument, needs);
+  if (!(off > 1e-9)) refuse_cloud();
 }
 
 /// The mean distance of the nearest few.
@@ -119,16 +114,19 @@ double median_neighbour(const Scalars& numbers, const NeighbourTable& neighbours
 }
 
 /// Marks points that are much farther from their neighbours than those are from theirs, and those that are far from
-/// everything.
-std::vector<std::uint8_t> without_lonely(const NeighbourTable& neighbours, const Scalars& spacing) {
+/// everything and not in one plane with what is around them.
+std::vector<std::uint8_t> without_lonely(const Points& points, const NeighbourTable& neighbours,
+                                         const Scalars& spacing) {
+  constexpr double kRough = 0.06;
   std::vector<std::uint8_t> kept(static_cast<std::size_t>(spacing.size()), 1);
   std::vector<double> few(spacing.data(), spacing.data() + spacing.size());
   const double typical = quantile(few, 0.5);
+  const Scalars roughness = local_planes(points, neighbours).roughness;
   for (Index row = 0; row < static_cast<Index>(spacing.size()); ++row) {
     const double near = median_neighbour(spacing, neighbours, row, few);
-    if (spacing(row) > 2.2 * near || (spacing(row) > 2.5 * typical && spacing(row) > 1.5 * near) ||
-        spacing(row) > 6.0 * typical)
-      kept[row] = 0;
+    const bool rough = roughness(row) > kRough;
+    const bool alone = spacing(row) > 2.2 * near && (rough || spacing(row) > 4.0 * near);
+    if (alone || (rough && spacing(row) > 2.5 * typical)) kept[row] = 0;
   }
   return kept;
 }
@@ -139,7 +137,7 @@ void drop_outliers(CloudSamples& samples) {
   for (int round = 0; round < kRounds && samples.points.rows() >= kFewest; ++round) {
     const auto size = static_cast<Index>(samples.points.rows());
     const NeighbourTable neighbours = find_neighbours(PointTree(samples.points), kCloudNeighbours);
-    const std::vector<std::uint8_t> kept = without_lonely(neighbours, spacing_of(neighbours, size));
+    const std::vector<std::uint8_t> kept = without_lonely(samples.points, neighbours, spacing_of(neighbours, size));
     const auto count = static_cast<Index>(std::count(kept.begin(), kept.end(), 1));
     if (count == size || count < size / 2) break;
     samples.outliers += size - count;
@@ -170,11 +168,20 @@ void measure_density(CloudSamples& samples, const NeighbourTable& neighbours) {
 
 }  // namespace
 
+void require_cloud(const PointCloud& cloud) {
+  require_finite(cloud.points, "points");
+  if (cloud.normals.rows() == 0) return;
+  if (cloud.normals.rows() != cloud.points.rows())
+    throw Error(ErrorCode::BadShape, "a cloud has a normal for each point or none: " +
+                                         std::to_string(cloud.normals.rows()) + " normals of " +
+                                         std::to_string(cloud.points.rows()) + " points");
+  require_finite(cloud.normals, "normals");
+}
+
 CloudSamples prepare_cloud(const PointCloud& cloud, const Progress& progress) {
-  require_cloud(cloud);
   CloudSamples samples;
-  if (cloud.points.rows() < 4)
-    throw Error(ErrorCode::BadArgument, "a first mesh needs points at four places or more that are not on one line");
+  if (cloud.points.rows() < kFewestPlaces) refuse_cloud();
+  samples.given = static_cast<Index>(cloud.points.rows());
   samples.points = in_own_unit(cloud.points, samples);
   samples.normals = cloud.normals;
   unit_rows(samples.normals);

@@ -17,13 +17,17 @@ struct CloudSamples {
   Scalars spacing;  ///< the usual distance of points that are neighbours there
   Eigen::RowVector3d centre;
   double size = 1.0;       ///< a place in the cloud's unit is centre + size * place
+  Index given = 0;         ///< points of the cloud
   Index repeated = 0;      ///< points at the place of another
   Index outliers = 0;      ///< points left out
   double typical = 0.0;    ///< the median spacing
 };
 
+/// Throws Error: BadShape, NotFinite where a cloud is not one.
+void require_cloud(const PointCloud& cloud);
+
 /// Sorts, thins clouds of many points to the means of small boxes, leaves out outliers, finds normals where there are
-/// none. Throws Error: BadShape, NotFinite, BadArgument (fewer than 4 places, all on one line), Cancelled.
+/// none. Throws Error: BadArgument (fewer than 20 places, all on one line), Cancelled.
 /// O(N log N).
 CloudSamples prepare_cloud(const PointCloud& cloud, const Progress& progress = {});
 

@@ -24,7 +24,9 @@ FaceReach face_reach(const Mesh& mesh, const CloudField& field, double face_size
   constexpr double kFarSpacings = 3.0;
   constexpr double kFarFaces = 0.5;
   constexpr Index kAround = 16;
+  constexpr Index kFewest = 6;
   constexpr double kLean = 0.5;  // 4 / (3 pi) = 0.42 where the samples end in a straight line
+  const Index around = std::clamp<Index>(field.tree.size() / 8, 1, kAround);
   FaceReach reach;
   reach.distance.resize(static_cast<std::size_t>(mesh.face_count()));
   reach.far.resize(reach.distance.size());
@@ -36,14 +38,14 @@ FaceReach face_reach(const Mesh& mesh, const CloudField& field, double face_size
       middle /= mesh.face_size(face);
       std::array<Index, kAround> near{};
       std::array<double, kAround> squares{};
-      const Index found = field.tree.nearest(middle, kAround, near.data(), squares.data());
+      const Index found = field.tree.nearest(middle, around, near.data(), squares.data());
       Eigen::RowVector3d mean = Eigen::RowVector3d::Zero();
       for (Index k = 0; k < found; ++k) mean += field.samples.points.row(near[k]);
       const double lean = (mean / found - middle).norm() / std::sqrt(squares[found - 1]);
       reach.distance[face] = std::sqrt(squares[0]);
       const double local = std::max(field.samples.spacing(near[0]), field.samples.typical);
       const bool away = reach.distance[face] > std::max(kFarSpacings * local, kFarFaces * face_size);
-      reach.far[face] = away || lean > kLean ? 1 : 0;
+      reach.far[face] = away || (found > kFewest && lean > kLean) ? 1 : 0;
     }
   };
   parallel_for(mesh.face_count(), measure, 256);

@@ -1,5 +1,6 @@
 #include "batten/fit/contour_search.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -22,6 +23,7 @@ namespace batten {
 namespace {
 
 constexpr Index kSupportPlaces = 1500;
+constexpr int kRelaxRounds = 3;
 
 /// The genus and number of components.
 struct Shape {
@@ -72,29 +74,17 @@ Candidate contour_at(const CloudField& field, const Points& places, double spaci
   return candidate;
 }
 
-/// The spacing at which about so many vertices come out.
-double spacing_for(const CloudField& field, const Points& places, Index vertices, double bridge) {
-  double low = 1.0 / 400.0;
-  double high = 0.5;
-  double spacing = std::sqrt(1.5 * field.samples.areas.sum() / vertices);
-  for (int round = 0; round < 8; ++round) {
-    spacing = std::min(std::max(spacing, low), high);
-    const auto count = static_cast<double>(
-        contour_at(field, places, spacing, Eigen::RowVector3d::Zero(), bridge).contour.mesh.vertex_count());
-    if (std::abs(count / vertices - 1.0) < 0.02) break;
-    spacing *= count > 0.0 ? std::min(1.6, std::max(0.6, std::sqrt(count / vertices))) : 0.6;
-  }
-  return spacing;
-}
-
-/// The shape that most grids nearly as fine as the field's give; of equals the simplest.
+/// The shape that most grids nearly as fine as the field's give; of equals the simplest. Two more grids are asked as
+/// long as they disagree.
 Shape shape_of_field(const CloudField& field, const Points& places, const std::optional<Index>& genus, double bridge) {
+  constexpr std::array<double, 6> kShares{1.3, 1.0, 1.15, 1.5, 1.08, 1.4};
   std::map<Shape, int> votes;
-  for (const double share : {1.0, 1.15, 1.3, 1.5}) {
-    for (const double move : {0.0, 0.25, 0.5}) {
+  for (const double share : kShares) {
+    for (const double move : {0.0, 0.5}) {
       const Eigen::RowVector3d moves = Eigen::RowVector3d::Constant(move);
       ++votes[contour_at(field, places, share * field.grid.spacing, moves, bridge).shape];
     }
+    if (votes.size() == 1 && !genus && share != kShares[0]) break;
   }
   Shape wanted;
   int most = 0;
@@ -106,13 +96,40 @@ Shape shape_of_field(const CloudField& field, const Points& places, const std::o
   return wanted;
 }
 
-/// The contour of the wanted shape with about so many vertices; without faces where no grid gives it.
-FoundContour best_grid(const CloudField& field, const Points& places, const Shape& wanted, Index vertices,
-                       double bridge) {
+/// A fine contour of the wanted shape; without faces where no grid gives it.
+FoundContour fine_contour(const CloudField& field, const Points& places, const Shape& wanted, double bridge) {
+  for (const double share : {1.0, 1.15, 1.3, 1.5, 0.85}) {
+    for (const double move : {0.0, 0.25, 0.5}) {
+      const Eigen::RowVector3d moves = Eigen::RowVector3d::Constant(move);
+      Candidate candidate = contour_at(field, places, share * field.grid.spacing, moves, bridge);
+      if (candidate.shape == wanted) return std::move(candidate.contour);
+    }
+  }
+  return {};
+}
+
+/// The spacing at which about so many vertices come out.
+double spacing_for(const CloudField& field, const Points& places, Index vertices, double bridge) {
+  constexpr int kRounds = 8;
+  constexpr double kNear = 0.02;
+  double spacing = std::sqrt(1.5 * field.samples.areas.sum() / vertices);
+  for (int round = 0; round < kRounds; ++round) {
+    spacing = std::min(std::max(spacing, 0.5 * field.grid.spacing), 0.5);
+    const Candidate candidate = contour_at(field, places, spacing, Eigen::RowVector3d::Zero(), bridge);
+    const auto count = static_cast<double>(candidate.contour.mesh.vertex_count());
+    if (std::abs(count / vertices - 1.0) < kNear) break;
+    spacing *= std::min(1.6, std::max(0.6, std::sqrt(count / vertices)));
+  }
+  return spacing;
+}
+
+/// The coarse contour of the wanted shape with about so many vertices; without faces where no grid gives one.
+FoundContour coarse_contour(const CloudField& field, const Points& places, const Shape& wanted, Index vertices,
+                            double bridge) {
   constexpr double kGoodEnough = 0.05;
-  constexpr double kBadEnough = 0.35;
+  constexpr double kTooBad = 0.35;
   const double spacing = spacing_for(field, places, vertices, bridge);
-  double least = kBadEnough;
+  double least = kTooBad;
   FoundContour best;
   for (const double share : {1.0, 0.97, 1.03, 0.94, 1.06, 0.9, 0.85}) {
     for (int corner = 0; corner < 8; ++corner) {
@@ -129,45 +146,36 @@ FoundContour best_grid(const CloudField& field, const Points& places, const Shap
   return best;
 }
 
-/// A fine contour of the wanted shape; without faces where no grid gives it.
-FoundContour fine_contour(const CloudField& field, const Points& places, const Shape& wanted, double bridge) {
-  for (const double share : {1.0, 1.15, 1.3, 1.5, 0.85}) {
-    for (const double move : {0.0, 0.25, 0.5}) {
-      const Eigen::RowVector3d moves = Eigen::RowVector3d::Constant(move);
-      Candidate candidate = contour_at(field, places, share * field.grid.spacing, moves, bridge);
-      if (candidate.shape == wanted) return std::move(candidate.contour);
-    }
-  }
-  return {};
+[[noreturn]] void refuse(const FirstMeshOptions& options) {
+  if (options.genus)
+    throw Error(ErrorCode::NotConverged, "no grid gives a surface of genus " + std::to_string(*options.genus) +
+                                             ": leave the genus open, or give more points");
+  throw Error(ErrorCode::NotConverged, "the points do not lie on a surface: they may fill a volume");
 }
 
 }  // namespace
 
-FoundContour find_contour(const CloudField& field, const FirstMeshOptions& options) {
+FoundContour find_contour(const CloudField& field, const FirstMeshOptions& options, const Progress& progress) {
   constexpr double kUsualBridge = 0.2;
   const double bridge = options.bridge ? *options.bridge / field.samples.size : kUsualBridge;
   const Points places = some_samples(field.samples, kSupportPlaces);
   const Shape wanted = shape_of_field(field, places, options.genus, bridge);
-  if (options.faces == FaceKind::Quads) {
-    FoundContour found = best_grid(field, places, wanted, options.vertices, bridge);
+  if (wanted.components == 0) refuse(options);
+  report_progress(progress, 0.5);
+  if (options.faces == FaceKind::Quads && options.pattern == QuadPattern::Grid) {
+    FoundContour found = coarse_contour(field, places, wanted, options.vertices, bridge);
     if (found.mesh.face_count() > 0) {
-      relax_contour(found.mesh, field);
+      relax_contour(found.mesh, field, kRelaxRounds);
       return found;
     }
   }
   FoundContour found = fine_contour(field, places, wanted, bridge);
-  if (found.mesh.face_count() == 0) {
-    if (options.genus)
-      throw Error(ErrorCode::NotConverged, "no grid gives a surface of genus " + std::to_string(*options.genus) +
-                                               ": leave the genus open, or give more points");
-    throw Error(ErrorCode::NotConverged, "the points do not lie on a surface: they may fill a volume");
-  }
-  relax_contour(found.mesh, field);
-  found.mesh = simplified(triangulated(found.mesh), options.vertices);
-  found.simplified = true;
+  if (found.mesh.face_count() == 0) refuse(options);
+  relax_contour(found.mesh, field, kRelaxRounds);
+  found.mesh = simplified(triangulated(found.mesh), options.vertices, progress_within(progress, 0.7, 0.9));
   if (options.faces == FaceKind::Triangles) return found;
   found.mesh = paired_quads(found.mesh);
-  relax_contour(found.mesh, field);
+  relax_contour(found.mesh, field, kRelaxRounds);
   return found;
 }
 

@@ -1,4 +1,4 @@
-/// \file The grid whose contour has about so many vertices and the topology of the surface.
+/// \file A grid whose contour has the topology of the surface, made coarser.
 #pragma once
 #include "batten/fit/cloud_field.h"
 #include "batten/fit/first_mesh.h"
@@ -10,9 +10,10 @@ struct FoundContour {
   Mesh mesh;
   double spacing = 0.0;
   Index dropped = 0;
-  bool simplified = false;  ///< a finer contour was made coarser
 };
 
-FoundContour find_contour(const CloudField& field, const FirstMeshOptions& options);
+/// The contour of the shape that most grids give, made coarser to about the vertices asked for. Throws
+/// Error: NotConverged, Cancelled.
+FoundContour find_contour(const CloudField& field, const FirstMeshOptions& options, const Progress& progress = {});
 
 }  // namespace batten

@@ -11,9 +11,17 @@ namespace batten {
 /// The faces of a first mesh.
 enum class FaceKind { Quads, Triangles };
 
+/// How quads are laid.
+enum class QuadPattern {
+  Adapted,  ///< smaller where the surface bends: the triangles of FaceKind::Triangles joined in pairs
+  Grid      ///< of equal size along a grid, regular where the surface follows the axes; Adapted where that would have
+            ///< another topology
+};
+
 /// Options of first_mesh(). Lengths are in the unit of the points.
 struct FirstMeshOptions {
   FaceKind faces = FaceKind::Quads;
+  QuadPattern pattern = QuadPattern::Adapted;
   Index vertices = 400;            ///< about so many; 8 to 1,000,000
   std::optional<Index> genus;      ///< of all components together: no other is taken
   /// Gaps between points up to this width are closed, wider ones become boundaries. Without: gaps are closed where they
@@ -33,7 +41,6 @@ struct FirstMesh {
   Mesh mesh;                         ///< accepted by Topology; vertices near the points
   std::vector<FirstMeshPart> parts;  ///< the components, ordered by lowest vertex
   double spacing = 0.0;              ///< of the grid that the mesh was cut from
-  bool simplified = false;           ///< edges of a finer mesh were collapsed
   double point_spacing = 0.0;        ///< the median distance of neighbouring points
   Index repeated_points = 0;         ///< points at the place of another
   Index outliers = 0;                ///< points left out
@@ -42,7 +49,7 @@ struct FirstMesh {
   Index genus() const;  ///< of all components together
 };
 
-/// The result depends on the points, not on their order. Throws Error: BadShape, NotFinite, BadArgument (fewer than four
+/// The result depends on the points, not on their order. Throws Error: BadShape, NotFinite, BadArgument (fewer than 20
 /// points apart, all on a line; an option out of its range), NotConverged (the genus asked for does not come out),
 /// Cancelled.
 FirstMesh first_mesh(const PointCloud& cloud, const FirstMeshOptions& options = {}, const Progress& progress = {});

@@ -9,23 +9,24 @@ namespace {
 /// A search from one free node for another along which partners change; odd circles are shrunk to their base.
 class Matcher {
  public:
-  Matcher(Index nodes, const std::vector<MatchedPair>& pairs)
-      : near_(static_cast<std::size_t>(nodes)), partner_(near_.size(), -1) {
-    for (const MatchedPair& pair : pairs) {
-      near_[pair.a].push_back(pair.b);
-      near_[pair.b].push_back(pair.a);
-      if (partner_[pair.a] >= 0 || partner_[pair.b] >= 0) continue;
-      partner_[pair.a] = pair.b;
-      partner_[pair.b] = pair.a;
-    }
+  explicit Matcher(Index nodes) : near_(static_cast<std::size_t>(nodes)), partner_(near_.size(), -1) {}
+
+  void add(const MatchedPair& pair) {
+    near_[pair.a].push_back(pair.b);
+    near_[pair.b].push_back(pair.a);
+    if (partner_[pair.a] >= 0 || partner_[pair.b] >= 0) return;
+    partner_[pair.a] = pair.b;
+    partner_[pair.b] = pair.a;
   }
 
-  std::vector<Index> run() {
+  /// As many pairs as possible of those added so far; nodes with a partner keep one.
+  void match() {
     for (Index node = 0; node < static_cast<Index>(near_.size()); ++node) {
       if (partner_[node] < 0) change_along(search_from(node));
     }
-    return partner_;
   }
+
+  const std::vector<Index>& partners() const { return partner_; }
 
  private:
   Index base_of_both(Index a, Index b) const {
@@ -112,8 +113,17 @@ class Matcher {
 
 }  // namespace
 
-std::vector<Index> maximum_matching(Index nodes, const std::vector<MatchedPair>& pairs) {
-  return Matcher(nodes, pairs).run();
+std::vector<Index> maximum_matching(Index nodes, const std::vector<MatchedPair>& pairs,
+                                    const std::vector<double>& limits) {
+  Matcher matcher(nodes);
+  std::size_t next = 0;
+  for (const double limit : limits) {
+    for (; next < pairs.size() && pairs[next].cost < limit; ++next) matcher.add(pairs[next]);
+    matcher.match();
+  }
+  for (; next < pairs.size(); ++next) matcher.add(pairs[next]);
+  matcher.match();
+  return matcher.partners();
 }
 
 }  // namespace batten

@@ -80,7 +80,9 @@ bool take_out_doublets(Mesh& mesh) {
 
 Mesh paired_quads(const Mesh& mesh) {
   const Topology topology(mesh);
-  const std::vector<Index> partner = maximum_matching(mesh.face_count(), ranked_pairs(topology, mesh.points));
+  const std::vector<double> limits{0.3, 0.45, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2};
+  const std::vector<Index> partner =
+      maximum_matching(mesh.face_count(), ranked_pairs(topology, mesh.points), limits);
   Mesh quads;
   quads.points = mesh.points;
   for (Index f = 0; f < mesh.face_count(); ++f) {

@@ -5,8 +5,8 @@
 
 namespace batten {
 
-/// A few rounds: each vertex moves along the surface towards the mean of its neighbours and then to the place that the
+/// In each round every vertex moves along the surface towards the mean of its neighbours and then to the place that the
 /// samples near it give.
-void relax_contour(Mesh& mesh, const CloudField& field);
+void relax_contour(Mesh& mesh, const CloudField& field, int rounds);
 
 }  // namespace batten
