@@ -15,7 +15,7 @@ void add_fit(CLI::App& app, FitArguments& arguments, int& status) {
                   "faces and vertex order stay; auto")
       ->type_name("FILE")
       ->option_text("auto|sphere|FILE");
-  verb.add_option("--vertices", arguments.vertices, "at most so many control points; 1,600, or those of --init FILE")
+  verb.add_option("--vertices", arguments.vertices, "at most so many control points; 400, or those of --init FILE")
       ->check(whole_number(8));
   add_length(verb, "--tolerance", arguments.tolerance, "stop when no point is farther from the surface");
   verb.add_option("--genus", arguments.genus, "how many handles the surface has; found if not given")

@@ -10,10 +10,12 @@
 #include "batten/fit/enclosing_sphere.h"
 #include "batten/fit/first_mesh.h"
 #include "batten/fit/fit_schedule.h"
+#include "batten/fit/outliers.h"
 #include "batten/fit/point_tree.h"
 #include "batten/fit/start_sphere.h"
 #include "batten/fit/surface_fitter.h"
 #include "batten/mesh/checked_values.h"
+#include "batten/quantile.h"
 #include "batten/refine/refinement.h"
 #include "batten/surface/quadrature.h"
 
@@ -21,7 +23,9 @@ namespace batten {
 
 namespace {
 
-constexpr Index kUsualVertices = 1600;
+constexpr Index kUsualVertices = 400;
+/// In the end a point counts with this power of its distance.
+constexpr double kWorstPower = 2.0;
 
 void require_options(const PointCloud& cloud, const FitOptions& options) {
   require_finite(cloud.points, "points");
@@ -45,9 +49,30 @@ Mesh starting_mesh(const PointCloud& cloud, const FitOptions& options, const Pro
   constexpr Index kLeast = 50;
   FirstMeshOptions first;
   first.faces = options.scheme.kind == SchemeKind::Loop ? FaceKind::Triangles : FaceKind::Quads;
-  first.vertices = std::max(kLeast, options.vertices.value_or(kUsualVertices) / 4);
+  first.vertices = std::max(kLeast, options.vertices.value_or(kUsualVertices));
   first.genus = options.genus;
   return first_mesh(cloud, first, progress).mesh;
+}
+
+/// Shares of the diameter.
+FitErrors errors_of(Buffer<double> distances, double diameter) {
+  constexpr double kBulk = 0.95;
+  FitErrors errors;
+  if (distances.empty()) return errors;
+  const double cut = quantile(distances, kBulk);
+  double squares = 0.0;
+  double of_bulk = 0.0;
+  double bulk = 0.0;
+  for (const double distance : distances) {
+    squares += distance * distance;
+    errors.max = std::max(errors.max, distance / diameter);
+    if (distance > cut) continue;
+    of_bulk += distance * distance;
+    bulk += 1.0;
+  }
+  errors.rms = std::sqrt(squares / static_cast<double>(distances.size())) / diameter;
+  errors.bulk = std::sqrt(of_bulk / bulk) / diameter;
+  return errors;
 }
 
 /// How many control points one refinement makes.
@@ -59,49 +84,102 @@ double refined_count(const Topology& topology, SchemeKind kind) {
 /// The rounds of one fit.
 class FitRun {
  public:
-  FitRun(SurfaceFitter& fitter, const FitOptions& options, FitReport& report)
-      : fitter_(fitter), options_(options), report_(report), schedule_(measured().first) {}
+  FitRun(SurfaceFitter& fitter, const FitOptions& options, FitReport& report, const OutlierFilter& filter)
+      : fitter_(fitter),
+        options_(options),
+        report_(report),
+        filter_(filter),
+        outliers_(filter.lonely()),
+        schedule_(measured(), filter.spacing() / report.diameter) {
+    set_weights(0.0);
+  }
 
   /// All rounds and refinements.
   void go(const Progress& progress) {
     const Index most = options_.vertices.value_or(options_.initial ? 0 : kUsualVertices);
     while (true) {
+      const bool last = refined_count(fitter_.topology(), fitter_.scheme().kind) > most;
       go_level(progress);
-      if (report_.end == FitEnd::Tolerance) return;
-      if (refined_count(fitter_.topology(), fitter_.scheme().kind) > most) return;
+      if (last && report_.end != FitEnd::Tolerance) lower_worst(progress);
+      if (last || report_.end == FitEnd::Tolerance) return;
       fitter_.refine();
       fitter_.attach(progress);
       schedule_.note_refined();
     }
   }
 
+  const Buffer<std::uint8_t>& outliers() const { return outliers_; }
+
  private:
-  /// RMS and maximum, as shares of the diameter.
-  std::pair<double, double> measured() const {
-    const Scalars& distances = fitter_.distances();
-    const double count = static_cast<double>(std::max<Eigen::Index>(1, distances.size()));
-    return {std::sqrt(distances.squaredNorm() / count) / report_.diameter, distances.maxCoeff() / report_.diameter};
+  FitErrors measured() const {
+    Buffer<double> distances;
+    for (std::size_t i = 0; i < outliers_.size(); ++i) {
+      if (outliers_[i] == 0) distances.push_back(fitter_.distances()[static_cast<Eigen::Index>(i)]);
+    }
+    return errors_of(std::move(distances), report_.diameter);
+  }
+
+  bool reached(const FitErrors& errors) {
+    if (!(options_.tolerance > 0.0) || !(errors.max * report_.diameter <= options_.tolerance)) return false;
+    report_.end = FitEnd::Tolerance;
+    return true;
   }
 
   void go_level(const Progress& progress) {
     report_.end = FitEnd::Rounds;
     for (int round = 0; round < options_.rounds; ++round) {
       report_progress(progress, static_cast<double>(round) / options_.rounds);
-      const auto [rms, max] = go_round();
-      schedule_.note(rms, max);
-      if (options_.tolerance > 0.0 && max * report_.diameter <= options_.tolerance) {
-        report_.end = FitEnd::Tolerance;
-        return;
-      }
-      if (schedule_.is_stuck()) {
-        report_.end = FitEnd::Budget;
-        return;
-      }
+      go_round();
+      filter_.add_far(fitter_.distances(), outliers_);
+      set_weights(0.0);
+      const FitErrors errors = measured();
+      schedule_.note(errors);
+      if (reached(errors)) return;
+      if (!schedule_.is_stuck()) continue;
+      report_.end = FitEnd::Budget;
+      return;
     }
   }
 
+  /// Points count the more the farther away they are; of all rounds the surface with the least maximum is kept whose
+  /// RMS has not grown too much.
+  void lower_worst(const Progress& progress) {
+    constexpr int kRounds = 10;
+    constexpr double kMostGrowth = 1.1;
+    FitErrors best = measured();
+    const double most = kMostGrowth * best.rms;
+    Values kept = fitter_.control();
+    for (int round = 0; round < kRounds; ++round) {
+      report_progress(progress, static_cast<double>(round) / kRounds);
+      set_weights(kWorstPower);
+      go_round();
+      const FitErrors errors = measured();
+      if (!(errors.max < best.max) || errors.rms > most) continue;
+      best = errors;
+      kept = fitter_.control();
+      if (reached(errors)) break;
+    }
+    fitter_.move_to(kept);
+    fitter_.attach(progress);
+  }
+
+  /// Outliers count nothing, others by a power of their distance; half of it is what they counted before.
+  void set_weights(double power) {
+    constexpr double kMost = 100.0;
+    const double rms = measured().rms * report_.diameter;
+    Scalars weights = fitter_.weights();
+    for (Eigen::Index i = 0; i < weights.size(); ++i) {
+      const double share = rms > 0.0 ? fitter_.distances()[i] / rms : 1.0;
+      const double wanted = power > 0.0 ? std::min(kMost, 0.5 + 0.5 * std::pow(share, power)) : 1.0;
+      weights[i] = outliers_[static_cast<std::size_t>(i)] != 0 ? 0.0
+                   : power > 0.0                               ? 0.5 * (weights[i] + wanted)
+                                                               : wanted;
+    }
+    fitter_.set_weights(std::move(weights));
+  }
+
   /// Moves by a step, or by a part of it that lowers the objective.
-  std::pair<double, double> go_round() {
+  void go_round() {
     constexpr int kHalvings = 4;
     const Stopwatch watch;
     FitRound round;
@@ -118,20 +196,21 @@ class FitRun {
       if (round.after <= round.objective) break;
       move *= 0.5;
     }
-    const auto [rms, max] = measured();
+    const FitErrors errors = measured();
     round.vertices = fitter_.topology().vertex_count();
     round.fairness = step.fairness;
-    round.max = max * report_.diameter;
-    round.rms = rms * report_.diameter;
+    round.max = errors.max * report_.diameter;
+    round.rms = errors.rms * report_.diameter;
     round.iterations = solved.iterations;
     round.seconds = watch.seconds();
     report_.rounds.push_back(round);
-    return {rms, max};
   }
 
   SurfaceFitter& fitter_;
   const FitOptions& options_;
   FitReport& report_;
+  const OutlierFilter& filter_;
+  Buffer<std::uint8_t> outliers_;
   FitSchedule schedule_;
 };
 
@@ -149,6 +228,18 @@ DistanceSummary measure_to_points(const SurfaceFitter& fitter) {
   return summarize_distances(distances);
 }
 
+/// Of the points that are no outliers.
+DistanceSummary summarize_followed(const Scalars& distances, const Buffer<std::uint8_t>& outliers, Index& left_out) {
+  std::vector<Index> followed;
+  for (Index i = 0; i < static_cast<Index>(outliers.size()); ++i) {
+    if (outliers[i] == 0) followed.push_back(i);
+  }
+  left_out = static_cast<Index>(outliers.size() - followed.size());
+  DistanceSummary summary = summarize_distances(distances(followed));
+  summary.max_point = followed[static_cast<std::size_t>(summary.max_point)];
+  return summary;
+}
+
 }  // namespace
 
 FitResult fit_surface(const PointCloud& cloud, const FitOptions& options, const Progress& progress) {
@@ -163,7 +254,8 @@ FitResult fit_surface(const PointCloud& cloud, const FitOptions& options, const 
   const Mesh start = starting_mesh(known, options, preparing);
   SurfaceFitter fitter(Topology(start), options.scheme, start.points, known, preparing);
   fitter.attach(preparing);
-  FitRun run(fitter, options, report);
+  const OutlierFilter filter(PointTree(known.points), preparing);
+  FitRun run(fitter, options, report, filter);
   const Progress rounds = progress_within(progress, 0.2, 1.0);
   try {
     run.go(rounds);
@@ -172,8 +264,8 @@ FitResult fit_surface(const PointCloud& cloud, const FitOptions& options, const 
     report.end = FitEnd::Cancelled;
     fitter.attach();
   }
-  report.spacing = fitter.spacing();
-  report.to_surface = summarize_distances(fitter.distances());
+  report.spacing = filter.spacing();
+  report.to_surface = summarize_followed(fitter.distances(), run.outliers(), report.outliers);
   report.to_points = measure_to_points(fitter);
   report.seconds = watch.seconds();
   Mesh mesh = mesh_from_topology(fitter.topology());

@@ -24,7 +24,7 @@ struct FitOptions {
   /// The control mesh to start from instead, with its tags; its scheme must fit. Vertex i of it is vertex i of the
   /// result.
   std::optional<Mesh> initial;
-  /// At most so many control points: the mesh is refined as a whole while it has no more. Without: 1,600, and an
+  /// At most so many control points: the mesh is refined as a whole while it has no more. Without: 400, and an
   /// initial mesh is not refined.
   std::optional<Index> vertices;
   double tolerance = 0.0;      ///< stops when no point is farther away than this

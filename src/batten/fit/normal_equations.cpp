@@ -122,6 +122,7 @@ Values NormalEquations::solve(const Values& control, const Values& normals, cons
   multiply(energy_, control, right);
   work = right;
   project(normals, work);
+  work = fairness.stiffness.asDiagonal() * work;
   right = right_ - fairness.all * right - fairness.tangent * work;
   const std::vector<Eigen::Matrix3d> inverses = invert_diagonal(normals, fairness, own);
   const LinearMap precondition = [&](const Values& from, Values& to) {
@@ -135,13 +136,14 @@ Values NormalEquations::solve(const Values& control, const Values& normals, cons
   within.tolerance *= std::sqrt(std::max(0.0, right.cwiseProduct(x).sum()));
   x.setZero();
   Values in_planes;
+  const Scalars roots = fairness.stiffness.cwiseSqrt();
   const LinearMap product = [&](const Values& from, Values& to) {
     multiply_blocks(from, fairness.all, own, to);
-    work = from;
+    work = roots.asDiagonal() * from;
     project(normals, work);
     multiply(energy_, work, in_planes);
     project(normals, in_planes);
-    to += fairness.tangent * in_planes;
+    to += fairness.tangent * (roots.asDiagonal() * in_planes);
   };
   report = conjugate_gradients(product, precondition, Coefficients::Joint, right, x, within);
   return x;
@@ -155,8 +157,9 @@ std::vector<Eigen::Matrix3d> NormalEquations::invert_diagonal(const Values& norm
     for (int i = energy_.outerIndexPtr()[v]; i < energy_.outerIndexPtr()[v + 1]; ++i) {
       if (energy_.innerIndexPtr()[i] != v) continue;
       const double energy = energy_.valuePtr()[i];
-      Eigen::Matrix3d block = matrix_of(blocks_[i]) - fairness.tangent * energy * normal * normal.transpose();
-      block.diagonal().array() += (fairness.all + fairness.tangent) * energy + own;
+      const double tangent = fairness.tangent * fairness.stiffness[v] * energy;
+      Eigen::Matrix3d block = matrix_of(blocks_[i]) - tangent * normal * normal.transpose();
+      block.diagonal().array() += fairness.all * energy + tangent + own;
       if (block.determinant() > 0.0) inverses[static_cast<std::size_t>(v)] = block.inverse();
     }
   }

@@ -15,16 +15,17 @@ namespace batten {
 struct Fairness {
   double all = 0.0;      ///< c
   double tangent = 0.0;  ///< t
+  Scalars stiffness;     ///< of each control point: its row of T is times its root
   double damping = 0.0;  ///< m
 };
 
 /// For rows J of weights (surface/surface_weights.h), forms M_i and offsets o_i of N places, an energy matrix K, and
 /// control points P:
 ///
-///     (sum_i J_i^T M_i J_i + c K + t T K T + m D) x = sum_i J_i^T M_i o_i - c K P - t T K P
+///     (sum_i J_i^T M_i J_i + c K + t S T K T S + m D) x = sum_i J_i^T M_i o_i - c K P - t S^2 T K P
 ///
 /// T projects each control point's move onto the tangent plane of its vertex: there the energy counts more, so that the
-/// parameters stay even while the shape follows the points.
+/// parameters stay even while the shape follows the points. S has the roots of the control points' stiffness.
 /// J_i takes control points to place i, the same for x, y and z, so that the matrix is of 3-by-3 blocks, each of them
 /// symmetric. D is the mean diagonal of the sum: m holds points still that nothing pulls. Built for a connectivity.
 class NormalEquations {

@@ -19,14 +19,13 @@ Form outer(double weight, const Eigen::Vector3d& a) {
 }  // namespace
 
 Form distance_form(const Jet& jet, const Eigen::Vector3d& offset) {
-  constexpr Form kIdentity{1.0, 0.0, 0.0, 1.0, 0.0, 1.0};
   const Eigen::Vector3d cross = jet.du.cross(jet.dv);
   const double length = cross.norm();
-  if (!(length > 0.0)) return kIdentity;
+  if (!(length > 0.0)) return kPointForm;
   const Eigen::Vector3d normal = cross / length;
   const double squared = offset.squaredNorm();
   const double along = normal.dot(offset);
-  if (along * along < kAlongNormal * squared) return kIdentity;
+  if (along * along < kAlongNormal * squared) return kPointForm;
   const PointCurvature curvature = curvature_of(jet);
   Form form = outer(1.0, normal);
   const auto add = [&](double bend, const Eigen::Vector3d& direction) {

@@ -10,6 +10,9 @@ namespace batten {
 /// A symmetric 3-by-3 matrix: xx, xy, xz, yy, yz, zz.
 using Form = std::array<double, 6>;
 
+/// Of the distance to a point.
+inline constexpr Form kPointForm{1.0, 0.0, 0.0, 1.0, 0.0, 1.0};
+
 inline Eigen::Vector3d multiply(const Form& form, const Eigen::Vector3d& x) {
   return {form[0] * x[0] + form[1] * x[1] + form[2] * x[2], form[1] * x[0] + form[3] * x[1] + form[4] * x[2],
           form[2] * x[0] + form[4] * x[1] + form[5] * x[2]};

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -25,18 +26,17 @@ namespace {
 /// A little of it keeps faces of equal size where the thin plate would let them slide.
 constexpr double kTension = 1e-2;
 
-constexpr double kStiffen = 10.0;
-constexpr double kStiffenAround = 3.0;
-constexpr double kStiffest = 1e4;
+/// Where control points had to stop before faces folded, they resist moves along the surface the more.
+constexpr double kStiffen = 2.0;
+constexpr double kSoften = 0.8;
+constexpr double kStiffest = 100.0;
 
 /// A side of a face has so many places that are drawn to the data.
 constexpr int kSamplePoints = 2;
 
-EnergyOptions thin_plate(const std::vector<double>& stiffness) {
+EnergyOptions thin_plate() {
   EnergyOptions options;
-  options.rigidity = stiffness;
-  options.tension = stiffness;
-  for (double& tension : options.tension) tension *= kTension;
+  options.tension = {kTension};
   return options;
 }
 
@@ -49,7 +49,7 @@ struct FitLevel {
   SurfaceWeights weights;
   NearestPoints nearest;
   LimitSurface surface;
-  std::vector<double> stiffness;  ///< of each control face
+  Scalars stiffness;  ///< of each control point against moves along the surface
   NormalEquations equations;
   double energy_scale;
   SurfaceQuadrature samples;  ///< places that are drawn to the data
@@ -60,14 +60,10 @@ struct FitLevel {
         weights(patches),
         nearest(patches, control, progress),
         surface(patches, control),
-        stiffness(static_cast<std::size_t>(topology.face_count()), 1.0),
-        equations(energy_matrix()),
+        stiffness(Scalars::Ones(topology.vertex_count())),
+        equations(SurfaceEnergy(patches, thin_plate()).matrix(EnergyKind::Stiffness, progress)),
         energy_scale(scale_of(equations.energy())),
         samples(surface_quadrature(patches, {kSamplePoints, 0})) {}
-
-  NormalEquations::Matrix energy_matrix() const {
-    return SurfaceEnergy(patches, thin_plate(stiffness)).matrix(EnergyKind::Stiffness);
-  }
 
   /// Makes the mean diagonal 1/V, as that of the mean squared distance is about.
   static double scale_of(const NormalEquations::Matrix& energy) {
@@ -100,33 +96,34 @@ double median_spacing(const PointTree& tree) {
   return quantile(distances, 0.5);
 }
 
-/// One flag a face of the base: some of its normals turn away from their mean.
+/// One flag a face of the base: between neighbours of a grid of places on it the normal turns by more than a right
+/// angle.
 Buffer<std::uint8_t> folded_faces(const FitLevel& level) {
   constexpr int kSide = 4;
-  constexpr double kLeastCosine = 0.1;
+  constexpr std::ptrdiff_t kBlock = 64;
   const Index faces = level.patches.base().face_count();
   Buffer<std::uint8_t> folded(static_cast<std::size_t>(faces), 0);
   const bool quads = level.patches.quads();
-  parallel_for(faces, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    std::vector<Eigen::Vector3d> normals;
-    for (std::ptrdiff_t f = begin; f < end; ++f) {
-      normals.clear();
-      Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-      for (int j = 0; j < kSide; ++j) {
-        for (int i = 0; i < (quads ? kSide : kSide - j); ++i) {
-          const double step = quads ? 0.5 : 1.0 / 3.0;
-          const Jet jet = level.surface.jet({static_cast<Index>(f), (i + step) / kSide, (j + step) / kSide});
-          const Eigen::Vector3d normal = jet.du.cross(jet.dv);
-          mean += normal;
-          normals.push_back(normal.stableNormalized());
+  const double middle = quads ? 0.5 : 1.0 / 3.0;
+  parallel_for(
+      faces,
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        std::array<Eigen::Vector3d, static_cast<std::size_t>(kSide)> row;
+        for (auto f = static_cast<Index>(begin); f < static_cast<Index>(end); ++f) {
+          for (int j = 0; j < kSide; ++j) {
+            Eigen::Vector3d last = Eigen::Vector3d::Zero();
+            for (int i = 0; i < (quads ? kSide : kSide - j); ++i) {
+              const Jet jet = level.surface.jet({f, (i + middle) / kSide, (j + middle) / kSide});
+              const Eigen::Vector3d normal = jet.du.cross(jet.dv);
+              Eigen::Vector3d& below = row[static_cast<std::size_t>(i)];
+              if ((i > 0 && normal.dot(last) < 0.0) || (j > 0 && normal.dot(below) < 0.0)) folded[f] = 1;
+              below = normal;
+              last = normal;
+            }
+          }
         }
-      }
-      mean.stableNormalize();
-      const bool turned = std::any_of(normals.begin(), normals.end(),
-                                      [&](const auto& normal) { return !(normal.dot(mean) > kLeastCosine); });
-      folded[f] = turned ? 1 : 0;
-    }
-  }, 64);
+      },
+      kBlock);
   return folded;
 }
 
@@ -161,16 +158,35 @@ bool are_opposed(const Jet& jet, const PointCloud& cloud, Eigen::Index point) {
   return cloud.normals.rows() > 0 && jet.du.cross(jet.dv).dot(cloud.normals.row(point).transpose()) < 0.0;
 }
 
-/// Each point draws the place nearest to it.
+/// Each point draws the place nearest to it, or where that faces the other way the nearest sample that does not.
 void pull_to_surface(const FitState& parts, const std::vector<Jet>& jets, Pulls& pulls) {
-  parallel_for(parts.cloud.points.rows(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+  constexpr Index kCandidates = 32;
+  const std::ptrdiff_t count = parts.cloud.points.rows();
+  const auto samples = static_cast<std::ptrdiff_t>(parts.level->samples.places.size());
+  Points sample_points(samples, 3);
+  for (std::ptrdiff_t i = 0; i < samples; ++i)
+    sample_points.row(i) = jets[static_cast<std::size_t>(count + i)].point.transpose();
+  const PointTree tree(std::move(sample_points));
+  parallel_for(count, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    Index found[kCandidates];
+    double squares[kCandidates];
     for (std::ptrdiff_t i = begin; i < end; ++i) {
-      const Jet& jet = jets[static_cast<std::size_t>(i)];
-      const Eigen::Vector3d offset = parts.cloud.points.row(i).transpose() - jet.point;
-      pulls.offsets.row(i) = offset.transpose();
-      Form& form = pulls.forms[static_cast<std::size_t>(i)];
-      form = distance_form(jet, offset);
-      scale(are_opposed(jet, parts.cloud, i) ? 0.0 : parts.weights[i] / parts.weight_sum, form);
+      const auto point = static_cast<std::size_t>(i);
+      Form& form = pulls.forms[point];
+      if (!are_opposed(jets[point], parts.cloud, i)) {
+        const Eigen::Vector3d offset = parts.cloud.points.row(i).transpose() - jets[point].point;
+        pulls.offsets.row(i) = offset.transpose();
+        form = distance_form(jets[point], offset);
+      } else {
+        const Index near = tree.nearest(parts.cloud.points.row(i), kCandidates, found, squares);
+        Index k = 0;
+        while (k < near && are_opposed(jets[static_cast<std::size_t>(count + found[k])], parts.cloud, i)) ++k;
+        if (k == near) continue;
+        pulls.places[point] = parts.level->samples.places[static_cast<std::size_t>(found[k])];
+        pulls.offsets.row(i) = parts.cloud.points.row(i) - tree.points().row(found[k]);
+        form = kPointForm;
+      }
+      scale(parts.weights[i] / parts.weight_sum, form);
     }
   });
 }
@@ -275,7 +291,7 @@ Values SurfaceFitter::find_step(const FitStep& options, SolveReport* report) con
   const Values normals = limit_normals(level.topology, parts.scheme, parts.control).vertices;
   const double unit = level.energy_scale;
   const Fairness fairness{unit * options.fairness, unit * std::max(0.0, options.evenness - options.fairness),
-                          options.damping};
+                          level.stiffness, options.damping};
   Values step = level.equations.solve(parts.control, normals, fairness,
                                       {options.tolerance, options.max_iterations, {}}, solved);
   if (report != nullptr) *report = std::move(solved);
@@ -293,6 +309,7 @@ Values SurfaceFitter::stepped(const Values& control, const Values& step) {
   FitLevel& level = *parts_->level;
   level.surface.set_control(control);
   const Buffer<std::uint8_t> before = folded_faces(level);
+  level.stiffness = (kSoften * level.stiffness).cwiseMax(1.0);
   Scalars share = Scalars::Ones(control.rows());
   Values moved;
   for (int halving = 0; halving <= kHalvings; ++halving) {
@@ -308,7 +325,10 @@ Values SurfaceFitter::stepped(const Values& control, const Values& step) {
     }
     if (!any) break;
     for (std::size_t v = 0; v < held.size(); ++v) {
-      if (held[v] != 0) share[static_cast<Eigen::Index>(v)] *= halving + 1 < kHalvings ? 0.5 : 0.0;
+      if (held[v] == 0) continue;
+      const auto row = static_cast<Eigen::Index>(v);
+      share[row] *= halving + 1 < kHalvings ? 0.5 : 0.0;
+      if (halving == 0) level.stiffness[row] = std::min(kStiffest, level.stiffness[row] * kStiffen);
     }
   }
   return moved;
