@@ -7,15 +7,15 @@ namespace batten {
 namespace {
 
 /// Fairness for the square of the distances.
-constexpr double kFairnessOfSquares = 15.0;
+constexpr double kFairnessOfSquares = 30.0;
 constexpr double kMostFair = 1.0;
 constexpr double kLeastFairness = 1e-14;
 constexpr double kFall = 0.4;
 /// How much more than fairness the evenness of the parameters counts.
 constexpr double kEvenness = 100.0;
-constexpr double kMostEven = 1e-1;
+constexpr double kMostEven = 3e-2;
 /// What draws the surface to the points falls with the distances, as parts of the points' spacing.
-constexpr double kPullOfDistance = 2.0;
+constexpr double kPullOfDistance = 1.0;
 constexpr double kPullFall = 0.8;
 /// A round gains where it takes off so much of what was left.
 constexpr double kGain = 0.01;
@@ -47,6 +47,11 @@ void FitSchedule::note(const FitErrors& errors) {
   best_.bulk = std::min(best_.bulk, errors.bulk);
   best_.max = std::min(best_.max, errors.max);
   choose(errors);
+}
+
+void FitSchedule::note_outliers(const FitErrors& errors) {
+  best_ = errors;
+  idle_ = 0;
 }
 
 void FitSchedule::note_refined() {

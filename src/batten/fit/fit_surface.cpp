@@ -104,6 +104,7 @@ class FitRun {
       if (last || report_.end == FitEnd::Tolerance) return;
       fitter_.refine();
       fitter_.attach(progress);
+      judged_ = false;
       schedule_.note_refined();
     }
   }
@@ -130,21 +131,32 @@ class FitRun {
     for (int round = 0; round < options_.rounds; ++round) {
       report_progress(progress, static_cast<double>(round) / options_.rounds);
       go_round();
-      filter_.add_far(fitter_.distances(), outliers_);
-      set_weights(0.0);
       const FitErrors errors = measured();
       schedule_.note(errors);
       if (reached(errors)) return;
       if (!schedule_.is_stuck()) continue;
+      if (leave_out_far()) continue;
       report_.end = FitEnd::Budget;
       return;
     }
   }
 
+  /// Judges anew which points are outliers; true where that changes.
+  bool leave_out_far() {
+    Buffer<std::uint8_t> flags = filter_.lonely();
+    filter_.add_far(fitter_.distances(), flags);
+    if (judged_ || flags == outliers_) return false;
+    judged_ = true;
+    outliers_ = std::move(flags);
+    set_weights(0.0);
+    schedule_.note_outliers(measured());
+    return true;
+  }
+
   /// Points count the more the farther away they are; of all rounds the surface with the least maximum is kept whose
   /// RMS has not grown too much.
   void lower_worst(const Progress& progress) {
-    constexpr int kRounds = 10;
+    constexpr int kRounds = 16;
     constexpr double kMostGrowth = 1.1;
     FitErrors best = measured();
     const double most = kMostGrowth * best.rms;
@@ -212,6 +224,7 @@ class FitRun {
   const OutlierFilter& filter_;
   Buffer<std::uint8_t> outliers_;
   FitSchedule schedule_;
+  bool judged_ = false;  ///< which points of the present level are outliers
 };
 
 /// From places spread over the surface to the nearest points.

@@ -13,8 +13,8 @@ namespace {
 constexpr Index kNeighbours = 8;
 constexpr double kLonelyHere = 3.0;
 constexpr double kLonelyAnywhere = 6.0;
-constexpr double kFar = 6.0;
-constexpr double kFarInSpacings = 0.5;
+constexpr double kFar = 8.0;
+constexpr double kFarInSpacings = 1.5;
 
 /// The median over a point's neighbours; 0 without any.
 template <typename Number>

@@ -20,8 +20,8 @@ class OutlierFilter {
   /// six times the usual.
   Buffer<std::uint8_t> lonely() const;
 
-  /// Adds those whose distance from a surface is six times the median of their neighbours', and above half the
-  /// spacing: a part of the shape that the surface has not reached is far as a whole. Flags only ever grow.
+  /// Adds those whose distance from a surface is eight times the median of their neighbours', and above one and a half
+  /// spacings: a part of the shape that the surface has not reached is far as a whole.
   void add_far(const Scalars& distances, Buffer<std::uint8_t>& flags) const;
 
  private:

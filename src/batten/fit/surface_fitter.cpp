@@ -99,7 +99,7 @@ double median_spacing(const PointTree& tree) {
 /// One flag a face of the base: between neighbours of a grid of places on it the normal turns by more than a right
 /// angle.
 Buffer<std::uint8_t> folded_faces(const FitLevel& level) {
-  constexpr int kSide = 4;
+  constexpr int kSide = 6;
   constexpr std::ptrdiff_t kBlock = 64;
   const Index faces = level.patches.base().face_count();
   Buffer<std::uint8_t> folded(static_cast<std::size_t>(faces), 0);
