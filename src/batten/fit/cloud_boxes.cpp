@@ -131,8 +131,7 @@ void take_means(CloudSamples& samples, const FilledBoxes& filled) {
 
 }  // namespace
 
-void thin_cloud(CloudSamples& samples, const Progress& progress) {
-  constexpr Index kWanted = 40000;
+void thin_cloud(CloudSamples& samples, Index wanted, const Progress& progress) {
   constexpr double kMostBoxes = 1 << 18;
   double boxes = 96.0;
   FilledBoxes filled;
@@ -140,7 +139,7 @@ void thin_cloud(CloudSamples& samples, const Progress& progress) {
     report_progress(progress, 0.25 * round);
     filled = fill_boxes(samples.points, boxes);
     mark_filled(filled);
-    const double share = static_cast<double>(filled.kept_count) / kWanted;
+    const double share = static_cast<double>(filled.kept_count) / wanted;
     if ((share > 0.5 && share < 1.5) || boxes >= kMostBoxes) break;
     if (round < 3) boxes = std::min(kMostBoxes, boxes / std::sqrt(share));
   }

@@ -13,7 +13,8 @@ namespace batten {
 
 namespace {
 
-constexpr double kFinestCells = 80.0;
+constexpr double kUsualCells = 80.0;
+constexpr double kMostCells = 200.0;
 constexpr double kMargin = 0.12;
 constexpr double kWidthShare = 0.6;
 constexpr Index kPlaceNeighbours = 10;
@@ -68,13 +69,15 @@ void take_sides(CloudSamples& samples, const Points& turned) {
 
 }  // namespace
 
-CloudField::CloudField(CloudSamples prepared, const Progress& progress)
+CloudField::CloudField(CloudSamples prepared, Index vertices, const Progress& progress)
     : samples(std::move(prepared)), tree(samples.points) {
   const Points turned = turned_normals(samples);
   take_sides(samples, turned);
   const WindingField field(samples.points, turned, samples.areas, kWidthShare * samples.spacing);
   level = level_on_samples(samples, field);
-  const double spacing = std::max(0.7 * samples.typical, 1.0 / kFinestCells);
+  const double for_vertices = 0.5 * std::sqrt(samples.areas.sum() / vertices);
+  const double finest = std::clamp(for_vertices, 1.0 / kMostCells, 1.0 / kUsualCells);
+  const double spacing = std::max(0.7 * samples.typical, finest);
   const double margin = std::max(kMargin, 3.0 * spacing);
   const Eigen::RowVector3d low = samples.points.colwise().minCoeff().array() - margin;
   const Eigen::RowVector3d high = samples.points.colwise().maxCoeff().array() + margin;

@@ -7,7 +7,8 @@ namespace batten {
 
 /// A cloud with what is asked of it over and over.
 struct CloudField {
-  explicit CloudField(CloudSamples prepared, const Progress& progress = {});
+  /// The grid is as fine as the samples, at most fine enough for so many vertices and for 200 cells.
+  CloudField(CloudSamples prepared, Index vertices, const Progress& progress = {});
 
   CloudSamples samples;
   PointTree tree;    ///< of the samples

@@ -178,7 +178,7 @@ void require_cloud(const PointCloud& cloud) {
   require_finite(cloud.normals, "normals");
 }
 
-CloudSamples prepare_cloud(const PointCloud& cloud, const Progress& progress) {
+CloudSamples prepare_cloud(const PointCloud& cloud, Index vertices, const Progress& progress) {
   CloudSamples samples;
   if (cloud.points.rows() < kFewestPlaces) refuse_cloud();
   samples.given = static_cast<Index>(cloud.points.rows());
@@ -186,9 +186,9 @@ CloudSamples prepare_cloud(const PointCloud& cloud, const Progress& progress) {
   samples.normals = cloud.normals;
   unit_rows(samples.normals);
   report_progress(progress, 0.05);
-  constexpr Index kThinFrom = 60000;
-  if (samples.points.rows() > kThinFrom) {
-    thin_cloud(samples, progress_within(progress, 0.05, 0.5));
+  const Index enough = std::max<Index>(25000, 4 * vertices);
+  if (samples.points.rows() > 2 * enough) {
+    thin_cloud(samples, enough, progress_within(progress, 0.05, 0.5));
   } else {
     sort_cloud(samples);
   }

@@ -26,9 +26,9 @@ struct CloudSamples {
 /// Throws Error: BadShape, NotFinite where a cloud is not one.
 void require_cloud(const PointCloud& cloud);
 
-/// Sorts, thins clouds of many points to the means of small boxes, leaves out outliers, finds normals where there are
+/// Sorts, thins clouds of more points than a mesh of so many vertices needs to the means of small boxes, leaves out outliers, finds normals where there are
 /// none. Throws Error: BadArgument (fewer than 20 places, all on one line), Cancelled.
 /// O(N log N).
-CloudSamples prepare_cloud(const PointCloud& cloud, const Progress& progress = {});
+CloudSamples prepare_cloud(const PointCloud& cloud, Index vertices, const Progress& progress = {});
 
 }  // namespace batten

@@ -74,18 +74,31 @@ Candidate contour_at(const CloudField& field, const Points& places, double spaci
   return candidate;
 }
 
-/// The shape that most grids nearly as fine as the field's give; of equals the simplest. Two more grids are asked as
-/// long as they disagree.
-Shape shape_of_field(const CloudField& field, const Points& places, const std::optional<Index>& genus, double bridge) {
-  constexpr std::array<double, 6> kShares{1.3, 1.0, 1.15, 1.5, 1.08, 1.4};
-  std::map<Shape, int> votes;
-  for (const double share : kShares) {
+/// Contours of grids nearly as fine as the field's, the finest first within each pair. More are made as long as they
+/// disagree about the shape, or until one has the genus asked for.
+std::vector<Candidate> fine_contours(const CloudField& field, const Points& places, const std::optional<Index>& genus,
+                                     double bridge, const Progress& progress) {
+  constexpr std::array<double, 6> kShares{1.0, 1.25, 1.12, 1.4, 1.06, 1.5};
+  std::vector<Candidate> candidates;
+  for (std::size_t i = 0; i < kShares.size(); ++i) {
     for (const double move : {0.0, 0.5}) {
+      report_progress(progress, (static_cast<double>(i) + move) / kShares.size());
       const Eigen::RowVector3d moves = Eigen::RowVector3d::Constant(move);
-      ++votes[contour_at(field, places, share * field.grid.spacing, moves, bridge).shape];
+      candidates.push_back(contour_at(field, places, kShares[i] * field.grid.spacing, moves, bridge));
     }
-    if (votes.size() == 1 && !genus && share != kShares[0]) break;
+    const Shape& first = candidates[0].shape;
+    const bool same = std::all_of(candidates.begin(), candidates.end(),
+                                  [&](const Candidate& candidate) { return candidate.shape == first; });
+    if (i > 0 && same && (!genus || first.genus == *genus)) break;
   }
+  return candidates;
+}
+
+/// The first contour of the shape that most have, or that most of those with the genus asked for have; of equals the
+/// simplest. nullptr where there is none.
+Candidate* most_frequent(std::vector<Candidate>& candidates, const std::optional<Index>& genus) {
+  std::map<Shape, int> votes;
+  for (const Candidate& candidate : candidates) ++votes[candidate.shape];
   Shape wanted;
   int most = 0;
   for (const auto& vote : votes) {
@@ -93,19 +106,9 @@ Shape shape_of_field(const CloudField& field, const Points& places, const std::o
     most = vote.second;
     wanted = vote.first;
   }
-  return wanted;
-}
-
-/// A fine contour of the wanted shape; without faces where no grid gives it.
-FoundContour fine_contour(const CloudField& field, const Points& places, const Shape& wanted, double bridge) {
-  for (const double share : {1.0, 1.15, 1.3, 1.5, 0.85}) {
-    for (const double move : {0.0, 0.25, 0.5}) {
-      const Eigen::RowVector3d moves = Eigen::RowVector3d::Constant(move);
-      Candidate candidate = contour_at(field, places, share * field.grid.spacing, moves, bridge);
-      if (candidate.shape == wanted) return std::move(candidate.contour);
-    }
-  }
-  return {};
+  const auto found = std::find_if(candidates.begin(), candidates.end(),
+                                  [&](const Candidate& candidate) { return candidate.shape == wanted; });
+  return most == 0 ? nullptr : &*found;
 }
 
 /// The spacing at which about so many vertices come out.
@@ -159,18 +162,18 @@ FoundContour find_contour(const CloudField& field, const FirstMeshOptions& optio
   constexpr double kUsualBridge = 0.2;
   const double bridge = options.bridge ? *options.bridge / field.samples.size : kUsualBridge;
   const Points places = some_samples(field.samples, kSupportPlaces);
-  const Shape wanted = shape_of_field(field, places, options.genus, bridge);
-  if (wanted.components == 0) refuse(options);
-  report_progress(progress, 0.5);
+  std::vector<Candidate> candidates =
+      fine_contours(field, places, options.genus, bridge, progress_within(progress, 0.0, 0.6));
+  Candidate* const fine = most_frequent(candidates, options.genus);
+  if (fine == nullptr) refuse(options);
   if (options.faces == FaceKind::Quads && options.pattern == QuadPattern::Grid) {
-    FoundContour found = coarse_contour(field, places, wanted, options.vertices, bridge);
+    FoundContour found = coarse_contour(field, places, fine->shape, options.vertices, bridge);
     if (found.mesh.face_count() > 0) {
       relax_contour(found.mesh, field, kRelaxRounds);
       return found;
     }
   }
-  FoundContour found = fine_contour(field, places, wanted, bridge);
-  if (found.mesh.face_count() == 0) refuse(options);
+  FoundContour found = std::move(fine->contour);
   relax_contour(found.mesh, field, kRelaxRounds);
   found.mesh = simplified(triangulated(found.mesh), options.vertices, progress_within(progress, 0.7, 0.9));
   if (options.faces == FaceKind::Triangles) return found;

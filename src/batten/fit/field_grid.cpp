@@ -40,18 +40,19 @@ class FieldCubes {
  private:
   float exact(const Eigen::RowVector3d& place) const { return static_cast<float>(field_.value(place) - level_); }
 
-  /// Cubes with points, and those beside them.
+  /// Cubes with points in them or nearby.
   void mark_near(const Points& points) {
+    constexpr double kNearCells = 1.5;
     near_.assign(corners_.values.size(), 0);
     for (Eigen::Index row = 0; row < points.rows(); ++row) {
-      std::array<Index, 3> at{};
-      for (int c = 0; c < 3; ++c)
-        at[c] = static_cast<Index>(std::floor((points(row, c) - corners_.origin(c)) / corners_.spacing));
-      for (int step = 0; step < 27; ++step) {
-        const std::array<Index, 3> cube{at[0] + step % 3 - 1, at[1] + step / 3 % 3 - 1, at[2] + step / 9 - 1};
-        bool inside = true;
-        for (int c = 0; c < 3; ++c) inside = inside && cube[c] >= 0 && cube[c] < corners_.nodes[c];
-        if (inside) near_[corners_.node(cube[0], cube[1], cube[2])] = 1;
+      for (int corner = 0; corner < 8; ++corner) {
+        std::array<Index, 3> cube{};
+        for (int c = 0; c < 3; ++c) {
+          const double step = (corner >> c & 1) != 0 ? kNearCells : -kNearCells;
+          const double place = points(row, c) + step * grid_.spacing - corners_.origin(c);
+          cube[c] = std::clamp<Index>(static_cast<Index>(place / corners_.spacing), 0, corners_.nodes[c] - 1);
+        }
+        near_[corners_.node(cube[0], cube[1], cube[2])] = 1;
       }
     }
   }

@@ -36,15 +36,15 @@ PointCloud taken_rows(const PointCloud& cloud, const Buffer<Index>& rows) {
 }
 
 /// The fields of the groups of a cloud, which each have a grid of their own.
-std::vector<CloudField> cloud_fields(const PointCloud& cloud, const Progress& progress) {
+std::vector<CloudField> cloud_fields(const PointCloud& cloud, Index vertices, const Progress& progress) {
   const std::vector<Buffer<Index>> groups = far_groups(cloud.points * unit_scale(cloud.points), kFewestPoints);
   std::vector<CloudField> fields;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const double count = static_cast<double>(groups.size());
     const Progress part = progress_within(progress, g / count, (g + 1) / count);
     const bool whole = static_cast<Eigen::Index>(groups[g].size()) == cloud.points.rows();
-    CloudSamples samples = prepare_cloud(whole ? cloud : taken_rows(cloud, groups[g]), progress_within(part, 0.0, 0.7));
-    fields.emplace_back(std::move(samples), progress_within(part, 0.7, 1.0));
+    CloudSamples samples = prepare_cloud(whole ? cloud : taken_rows(cloud, groups[g]), vertices, progress_within(part, 0.0, 0.7));
+    fields.emplace_back(std::move(samples), vertices, progress_within(part, 0.7, 1.0));
   }
   return fields;
 }
@@ -83,7 +83,7 @@ void require_options(const FirstMeshOptions& options) {
 FirstMesh first_mesh(const PointCloud& cloud, const FirstMeshOptions& options, const Progress& progress) {
   require_options(options);
   require_cloud(cloud);
-  const std::vector<CloudField> fields = cloud_fields(cloud, progress_within(progress, 0.0, 0.7));
+  const std::vector<CloudField> fields = cloud_fields(cloud, options.vertices, progress_within(progress, 0.0, 0.7));
   std::size_t largest = 0;
   double area = 0.0;
   Index in_groups = 0;
