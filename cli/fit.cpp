@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "batten/error.h"
+#include "batten/fit/mesh_samples.h"
 #include "batten/io/io.h"
 #include "batten/mesh/vertex_normals.h"
 #include "batten/refine/refinement.h"
@@ -18,15 +19,25 @@
 namespace batten::cli {
 namespace {
 
-/// The points of the input, with its normals, or those of its faces.
-PointCloud cloud_of(const Mesh& mesh) {
+/// Points with the normals that the file states.
+PointCloud stated_cloud(Mesh mesh) {
   PointCloud cloud;
-  cloud.points = mesh.points;
-  for (const Attribute& attribute : mesh.attributes) {
-    if (attribute.name == "normal" && !attribute.per_corner() && attribute.values.cols() == 3)
-      cloud.normals = attribute.values;
+  if (states_normals(mesh)) {
+    cloud.normals = stated_normals(mesh);
+    cloud.normals.rowwise().normalize();
   }
+  cloud.points = std::move(mesh.points);
   return cloud;
+}
+
+/// Points spread over the faces of a mesh, so many that a surface of `vertices` control points follows it.
+PointCloud sampled_cloud(const Mesh& mesh, Index vertices) {
+  constexpr Index kLeast = 20000;
+  constexpr Index kMost = 200000;
+  constexpr Index kOfVertex = 24;
+  const Index count = std::clamp(vertices, Index{1}, kMost / kOfVertex) * kOfVertex;
+  MeshSamples samples = sample_mesh(mesh, std::max(kLeast, count));
+  return {std::move(samples.points), std::move(samples.normals)};
 }
 
 FitOptions options_of(const FitArguments& arguments, const Mesh& points, Job& job) {
@@ -39,10 +50,11 @@ FitOptions options_of(const FitArguments& arguments, const Mesh& points, Job& jo
   if (arguments.common.scheme) options.scheme.kind = *arguments.common.scheme;
   options.vertices = arguments.vertices;
   options.genus = arguments.genus;
-  if (arguments.tolerance) {
-    const double unit = arguments.tolerance->relative ? bounding_diagonal(points.points) : 1.0;
-    options.tolerance = arguments.tolerance->value * unit;
-  }
+  const auto in_unit = [&](const Length& length) {
+    return length.value * (length.relative ? bounding_diagonal(points.points) : 1.0);
+  };
+  if (arguments.tolerance) options.tolerance = in_unit(*arguments.tolerance);
+  if (arguments.bridge) options.bridge = in_unit(*arguments.bridge);
   return options;
 }
 
@@ -149,7 +161,6 @@ void draw_fit(const FitArguments& arguments, const FitResult& result, const Mesh
 
 void write_residuals(const FitArguments& arguments, const FitResult& result, Mesh points) {
   if (arguments.residuals.empty()) return;
-  std::erase_if(points.attributes, [](const Attribute& attribute) { return attribute.name == "distance"; });
   points.attributes.push_back({"distance", result.distances, {}});
   write_mesh(arguments.residuals, points);
 }
@@ -160,13 +171,19 @@ int run_fit(const FitArguments& arguments) {
   const CommonArguments& common = arguments.common;
   Job job("fit", common);
   const FitOptions options = options_of(arguments, job.mesh, job);
+  const Index vertices = std::max(options.vertices.value_or(0), options.initial ? options.initial->vertex_count() : 0);
+  Mesh points;
+  PointCloud cloud =
+      job.mesh.face_count() > 0 ? sampled_cloud(job.mesh, vertices) : stated_cloud(std::move(job.mesh));
+  points.points = cloud.points;
+  job.stages.finish("sample");
   ProgressBar bar("fitting", common.quiet);
   const FitResult result =
-      fit_surface(cloud_of(job.mesh), options, bar.callback());
+      fit_surface(cloud, options, bar.callback());
   job.stages.finish("fit");
   const std::string written = write_surface({result.mesh, result.topology, result.scheme}, -1, job);
-  write_residuals(arguments, result, job.mesh);
-  if (!arguments.picture.path.empty()) draw_fit(arguments, result, job.mesh, job);
+  write_residuals(arguments, result, points);
+  if (!arguments.picture.path.empty()) draw_fit(arguments, result, points, job);
   print_table(result, written, job);
   job.report(report_json(result));
   return 0;

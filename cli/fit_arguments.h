@@ -18,6 +18,7 @@ struct FitArguments {
   std::optional<Index> vertices;
   std::optional<Length> tolerance;
   std::optional<Index> genus;
+  std::optional<Length> bridge;
   std::string residuals;  ///< the points with their distances
 };
 

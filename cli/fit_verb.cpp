@@ -20,6 +20,8 @@ void add_fit(CLI::App& app, FitArguments& arguments, int& status) {
   add_length(verb, "--tolerance", arguments.tolerance, "stop when no point is farther from the surface");
   verb.add_option("--genus", arguments.genus, "how many handles the surface has; found if not given")
       ->check(whole_number(0));
+  add_length(verb, "--bridge", arguments.bridge,
+             "close holes in the data up to this width; wider ones become boundaries; a fifth of the longest side");
   add_choice(verb, "--scheme", arguments.common.scheme,
              Names<SchemeKind>{{"catmull-clark", SchemeKind::CatmullClark}, {"loop", SchemeKind::Loop}},
              "catmull-clark, or that of --init FILE, if not given");
@@ -29,7 +31,7 @@ void add_fit(CLI::App& app, FitArguments& arguments, int& status) {
   add_range(verb, arguments.picture);
   set_run(verb, arguments.common, status, [&] {
     require_output(verb, {"--picture", "--report", "--residuals"});
-    if (arguments.init != kInitAuto) require_alone(verb, "--init", {"--genus"});
+    if (arguments.init != kInitAuto) require_alone(verb, "--init", {"--genus", "--bridge"});
     return run_fit(arguments);
   });
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,8 @@
 #include "batten/fit/point_tree.h"
 #include "batten/fit/start_sphere.h"
 #include "batten/fit/surface_fitter.h"
+#include "batten/fit/thin_cloud.h"
+#include "batten/nearest/nearest_point.h"
 #include "batten/mesh/checked_values.h"
 #include "batten/quantile.h"
 #include "batten/refine/refinement.h"
@@ -51,6 +54,7 @@ Mesh starting_mesh(const PointCloud& cloud, const FitOptions& options, const Pro
   first.faces = options.scheme.kind == SchemeKind::Loop ? FaceKind::Triangles : FaceKind::Quads;
   first.vertices = std::max(kLeast, options.vertices.value_or(kUsualVertices));
   first.genus = options.genus;
+  first.bridge = options.bridge;
   return first_mesh(cloud, first, progress).mesh;
 }
 
@@ -73,6 +77,21 @@ FitErrors errors_of(Buffer<double> distances, double diameter) {
   errors.rms = std::sqrt(squares / static_cast<double>(distances.size())) / diameter;
   errors.bulk = std::sqrt(of_bulk / bulk) / diameter;
   return errors;
+}
+
+/// The points that the rounds work with, with normals.
+PointCloud working_cloud(const PointCloud& cloud, const FitOptions& options, const Progress& progress) {
+  constexpr Index kLeast = 20000;
+  constexpr Index kOfVertex = 24;
+  const Index start = options.initial ? options.initial->vertex_count() : 0;
+  const Index vertices = std::max(start, options.vertices.value_or(kUsualVertices));
+  const Index most = std::max(kLeast, kOfVertex * std::min(vertices, std::numeric_limits<Index>::max() / kOfVertex));
+  const Buffer<Index> rows = thinned_rows(cloud.points, most);
+  PointCloud working;
+  working.points = cloud.points(rows, Eigen::all);
+  working.normals = cloud.normals.rows() > 0 ? Points(cloud.normals(rows, Eigen::all))
+                                             : estimate_normals(working.points, {}, progress);
+  return working;
 }
 
 /// How many control points one refinement makes.
@@ -100,7 +119,7 @@ class FitRun {
     while (true) {
       const bool last = refined_count(fitter_.topology(), fitter_.scheme().kind) > most;
       go_level(progress);
-      if (last && report_.end != FitEnd::Tolerance) lower_worst(progress);
+      if (last && report_.end == FitEnd::Budget) lower_worst(progress);
       if (last || report_.end == FitEnd::Tolerance) return;
       fitter_.refine();
       fitter_.attach(progress);
@@ -157,8 +176,10 @@ class FitRun {
   /// RMS has not grown too much.
   void lower_worst(const Progress& progress) {
     constexpr int kRounds = 16;
+    constexpr double kExact = 1e-10;
     constexpr double kMostGrowth = 1.1;
     FitErrors best = measured();
+    if (best.rms < kExact) return;
     const double most = kMostGrowth * best.rms;
     Values kept = fitter_.control();
     for (int round = 0; round < kRounds; ++round) {
@@ -192,7 +213,7 @@ class FitRun {
 
   /// Moves by a step, or by a part of it that lowers the objective.
   void go_round() {
-    constexpr int kHalvings = 4;
+    constexpr int kHalvings = 3;
     const Stopwatch watch;
     FitRound round;
     const FitStep& step = schedule_.step();
@@ -241,6 +262,17 @@ DistanceSummary measure_to_points(const SurfaceFitter& fitter) {
   return summarize_distances(distances);
 }
 
+/// Of all points to the surface.
+Scalars measure_to_surface(const SurfaceFitter& fitter, const Points& points) {
+  if (points.rows() == fitter.cloud().points.rows()) return fitter.distances();
+  const NearestPoints nearest(fitter.topology(), fitter.scheme(), fitter.control());
+  std::vector<NearestPoint> found(static_cast<std::size_t>(points.rows()));
+  nearest.nearest(points, found);
+  Scalars distances(points.rows());
+  for (std::size_t i = 0; i < found.size(); ++i) distances[static_cast<Eigen::Index>(i)] = found[i].distance;
+  return distances;
+}
+
 /// Of the points that are no outliers.
 DistanceSummary summarize_followed(const Scalars& distances, const Buffer<std::uint8_t>& outliers, Index& left_out) {
   std::vector<Index> followed;
@@ -262,8 +294,7 @@ FitResult fit_surface(const PointCloud& cloud, const FitOptions& options, const 
   report.diameter = 2.0 * enclosing_sphere(cloud.points).radius;
   if (!(report.diameter > 0.0)) throw Error(ErrorCode::BadArgument, "all points are at the same place");
   const Progress preparing = progress_within(progress, 0.0, 0.2);
-  PointCloud known = cloud;
-  if (known.normals.rows() == 0) known.normals = estimate_normals(cloud.points, {}, preparing);
+  const PointCloud known = working_cloud(cloud, options, preparing);
   const Mesh start = starting_mesh(known, options, preparing);
   SurfaceFitter fitter(Topology(start), options.scheme, start.points, known, preparing);
   fitter.attach(preparing);
@@ -277,14 +308,22 @@ FitResult fit_surface(const PointCloud& cloud, const FitOptions& options, const 
     report.end = FitEnd::Cancelled;
     fitter.attach();
   }
-  report.spacing = filter.spacing();
-  report.to_surface = summarize_followed(fitter.distances(), run.outliers(), report.outliers);
+  Scalars distances = measure_to_surface(fitter, cloud.points);
+  const bool thinned = known.points.rows() < cloud.points.rows();
+  const OutlierFilter whole = thinned ? OutlierFilter(PointTree(cloud.points)) : filter;
+  Buffer<std::uint8_t> outliers = run.outliers();
+  if (thinned) {
+    outliers = whole.lonely();
+    whole.add_far(distances, outliers);
+  }
+  report.spacing = whole.spacing();
+  report.to_surface = summarize_followed(distances, outliers, report.outliers);
   report.to_points = measure_to_points(fitter);
   report.seconds = watch.seconds();
   Mesh mesh = mesh_from_topology(fitter.topology());
   mesh.points = fitter.control();
   state_scheme(fitter.scheme(), mesh);
-  return {std::move(mesh), fitter.topology(), fitter.scheme(), fitter.distances(), std::move(report)};
+  return {std::move(mesh), fitter.topology(), fitter.scheme(), std::move(distances), std::move(report)};
 }
 
 }  // namespace batten

@@ -29,6 +29,7 @@ struct FitOptions {
   std::optional<Index> vertices;
   double tolerance = 0.0;      ///< stops when no point is farther away than this
   std::optional<Index> genus;  ///< demanded of the first mesh
+  std::optional<double> bridge;  ///< gaps up to this width are closed, wider ones become boundaries (FirstMeshOptions)
   int rounds = 30;             ///< at most so many for each number of control points
 };
 
