@@ -32,9 +32,9 @@ PointCloud stated_cloud(Mesh mesh) {
 
 /// Points spread over the faces of a mesh, so many that a surface of `vertices` control points follows it.
 PointCloud sampled_cloud(const Mesh& mesh, Index vertices) {
-  constexpr Index kLeast = 20000;
+  constexpr Index kLeast = 10000;
   constexpr Index kMost = 200000;
-  constexpr Index kOfVertex = 24;
+  constexpr Index kOfVertex = 12;
   const Index count = std::clamp(vertices, Index{1}, kMost / kOfVertex) * kOfVertex;
   MeshSamples samples = sample_mesh(mesh, std::max(kLeast, count));
   return {std::move(samples.points), std::move(samples.normals)};

@@ -81,8 +81,8 @@ FitErrors errors_of(Buffer<double> distances, double diameter) {
 
 /// The points that the rounds work with, with normals.
 PointCloud working_cloud(const PointCloud& cloud, const FitOptions& options, const Progress& progress) {
-  constexpr Index kLeast = 20000;
-  constexpr Index kOfVertex = 24;
+  constexpr Index kLeast = 10000;
+  constexpr Index kOfVertex = 12;
   const Index start = options.initial ? options.initial->vertex_count() : 0;
   const Index vertices = std::max(start, options.vertices.value_or(kUsualVertices));
   const Index most = std::max(kLeast, kOfVertex * std::min(vertices, std::numeric_limits<Index>::max() / kOfVertex));
@@ -175,15 +175,17 @@ class FitRun {
   /// Points count the more the farther away they are; of all rounds the surface with the least maximum is kept whose
   /// RMS has not grown too much.
   void lower_worst(const Progress& progress) {
-    constexpr int kRounds = 16;
+    // Where points are many, one alone is rarely far away, and rounds are long.
+    constexpr Eigen::Index kPointsInAll = 40000;
+    const auto rounds = static_cast<int>(std::clamp<Eigen::Index>(kPointsInAll / fitter_.distances().size(), 4, 16));
     constexpr double kExact = 1e-10;
     constexpr double kMostGrowth = 1.1;
     FitErrors best = measured();
     if (best.rms < kExact) return;
     const double most = kMostGrowth * best.rms;
     Values kept = fitter_.control();
-    for (int round = 0; round < kRounds; ++round) {
-      report_progress(progress, static_cast<double>(round) / kRounds);
+    for (int round = 0; round < rounds; ++round) {
+      report_progress(progress, static_cast<double>(round) / rounds);
       set_weights(kWorstPower);
       go_round();
       const FitErrors errors = measured();
