@@ -51,7 +51,8 @@ struct KnownCloud {
   double volume;
 };
 
-/// The vertices lie on the surface and the facets cut corners: the volume comes out too small, that of the thin torus by a sixth.
+/// The vertices lie on the surface and the facets cut corners: the volume comes out too small, that of the thin torus
+/// by a sixth.
 TEST(FirstMesh, HasGenusAndVolumeOfKnownSurfaces) {
   const double pi = std::numbers::pi;
   for (const FaceKind faces : {FaceKind::Quads, FaceKind::Triangles}) {
@@ -220,8 +221,7 @@ TEST(FirstMesh, RefusesCloudsThatAreNoSurface) {
   const auto refuse = [](const Points& points, ErrorCode code, const char* part) {
     test::expect_error([&] { first_mesh({points, {}}); }, code, part);
   };
-  for (const Index count : {0, 1, 2, 3, 19})
-    refuse(CloudMaker().sphere(count), ErrorCode::BadArgument, "20 places");
+  for (const Index count : {0, 1, 2, 3, 19}) refuse(CloudMaker().sphere(count), ErrorCode::BadArgument, "20 places");
   refuse(Points::Constant(100, 3, 0.1), ErrorCode::BadArgument, "20 places");
   Points line(100, 3);
   for (Index i = 0; i < 100; ++i) line.row(i) = 0.01 * i * Eigen::RowVector3d(1.0, 0.3, -2.0);
@@ -268,8 +268,12 @@ TEST(FirstMesh, StopsWhenAskedTo) {
 TEST(FirstMesh, HasTheGenusOfRealShapes) {
   const std::string folder = test::cloud_folder();
   if (folder.empty()) GTEST_SKIP() << "BATTEN_DATA is not set";
-  for (const auto& [name, genus] : {std::pair<const char*, Index>{"bulb-1000", 0}, {"head-1779", 0}, {"fandisk-2031", 0},
-                                    {"bunny-2000", 0}, {"cactus", 0}, {"rocker-arm-2000", 1}}) {
+  for (const auto& [name, genus] : {std::pair<const char*, Index>{"bulb-1000", 0},
+                                    {"head-1779", 0},
+                                    {"fandisk-2031", 0},
+                                    {"bunny-2000", 0},
+                                    {"cactus", 0},
+                                    {"rocker-arm-2000", 1}}) {
     SCOPED_TRACE(name);
     const Points points = read_mesh(folder + name + ".xyz").points;
     FirstMeshOptions options;

@@ -33,7 +33,8 @@ TEST(MeshSamples, AreSpreadEvenly) {
   const MeshSamples samples = sample_mesh(grid(1, 1), 1000);
   Eigen::ArrayXXi counts = Eigen::ArrayXXi::Zero(10, 10);
   for (Index i = 0; i < 1000; ++i)
-    ++counts(static_cast<int>(5.0 * (samples.points(i, 0) + 1.0)), static_cast<int>(5.0 * (samples.points(i, 1) + 1.0)));
+    ++counts(static_cast<int>(5.0 * (samples.points(i, 0) + 1.0)),
+             static_cast<int>(5.0 * (samples.points(i, 1) + 1.0)));
   EXPECT_GE(counts.minCoeff(), 4);
   EXPECT_LE(counts.maxCoeff(), 16);
 }

@@ -83,7 +83,8 @@ void mark_filled(FilledBoxes& filled) {
   const std::vector<double> around = counts_around(filled);
   std::vector<double> of_points;
   of_points.reserve(filled.rows.size());
-  for (std::size_t box = 0; box < filled.size(); ++box) of_points.insert(of_points.end(), filled.count(box), around[box]);
+  for (std::size_t box = 0; box < filled.size(); ++box)
+    of_points.insert(of_points.end(), filled.count(box), around[box]);
   const double usual = quantile(of_points, 0.5);
   filled.kept.assign(filled.size(), 0);
   filled.kept_count = 0;

@@ -32,7 +32,7 @@ double level_on_samples(const CloudSamples& samples, const WindingField& field) 
 }
 
 /// The normals of samples turned to where the field of all falls, each time on a finer scale: what most of them say of
-/// the sides puts the others right.
+/// the sides puts the others right (Lin, Shi and Liu 2024, key LSL24, who start from any normals).
 Points turned_normals(const CloudSamples& samples) {
   constexpr int kRounds = 4;
   constexpr double kFirstWidth = 3.0;

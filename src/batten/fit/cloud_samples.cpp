@@ -36,8 +36,7 @@ Points in_own_unit(const Points& points, CloudSamples& samples) {
   const BoundingBox box = bounding_box(scaled);
   const Eigen::RowVector3d middle = 0.5 * (box.low + box.high);
   const double size = (box.high - box.low).maxCoeff();
-  if (!(size > 1e-12 * box.high.cwiseAbs().cwiseMax(box.low.cwiseAbs()).maxCoeff()))
-    refuse_cloud();
+  if (!(size > 1e-12 * box.high.cwiseAbs().cwiseMax(box.low.cwiseAbs()).maxCoeff())) refuse_cloud();
   scaled.rowwise() -= middle;
   scaled /= size;
   samples.centre = middle / scale;
@@ -172,9 +171,9 @@ void require_cloud(const PointCloud& cloud) {
   require_finite(cloud.points, "points");
   if (cloud.normals.rows() == 0) return;
   if (cloud.normals.rows() != cloud.points.rows())
-    throw Error(ErrorCode::BadShape, "a cloud has a normal for each point or none: " +
-                                         std::to_string(cloud.normals.rows()) + " normals of " +
-                                         std::to_string(cloud.points.rows()) + " points");
+    throw Error(ErrorCode::BadShape,
+                "a cloud has a normal for each point or none: " + std::to_string(cloud.normals.rows()) +
+                    " normals of " + std::to_string(cloud.points.rows()) + " points");
   require_finite(cloud.normals, "normals");
 }
 

@@ -56,8 +56,8 @@ Index drop_unsupported(Mesh& mesh, const Points& places) {
   Buffer<std::uint8_t> kept(static_cast<std::size_t>(mesh.face_count()));
   for (Index f = 0; f < mesh.face_count(); ++f)
     kept[f] = support[components.of_vertex[mesh.face_vertices[mesh.face_offsets[f]]]] >= std::min(least, most) ? 1 : 0;
-  const auto dropped = static_cast<Index>(std::count_if(support.begin(), support.end(),
-                                                        [&](Index s) { return s < std::min(least, most); }));
+  const auto dropped = static_cast<Index>(
+      std::count_if(support.begin(), support.end(), [&](Index s) { return s < std::min(least, most); }));
   if (dropped > 0) keep_faces(mesh, kept);
   return dropped;
 }

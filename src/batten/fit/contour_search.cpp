@@ -51,12 +51,14 @@ Shape shape_of(const Mesh& mesh) {
 }
 
 /// The contour on a grid of this spacing, moved by parts of it.
-Candidate contour_at(const CloudField& field, const Points& places, double spacing, const Eigen::RowVector3d& move, double bridge) {
+Candidate contour_at(const CloudField& field, const Points& places, double spacing, const Eigen::RowVector3d& move,
+                     double bridge) {
   const ValueGrid& fine = field.grid;
   Eigen::RowVector3d low = fine.origin;
   Eigen::RowVector3d high = fine.origin;
   for (int c = 0; c < 3; ++c) high(c) += fine.spacing * (fine.nodes[c] - 1);
-  ValueGrid grid = grid_over(low - spacing * (Eigen::RowVector3d::Ones() - move), high + spacing * Eigen::RowVector3d::Ones(), spacing);
+  ValueGrid grid = grid_over(low - spacing * (Eigen::RowVector3d::Ones() - move),
+                             high + spacing * Eigen::RowVector3d::Ones(), spacing);
   parallel_for_each(grid.nodes[2], [&](std::ptrdiff_t k) {
     for (Index j = 0; j < grid.nodes[1]; ++j) {
       for (Index i = 0; i < grid.nodes[0]; ++i)

@@ -25,7 +25,8 @@ class FieldCubes {
     parallel_for_each(static_cast<std::ptrdiff_t>(corners_.nodes[1]) * corners_.nodes[2], [&](std::ptrdiff_t row) {
       const auto j = static_cast<Index>(row % corners_.nodes[1]);
       const auto k = static_cast<Index>(row / corners_.nodes[1]);
-      for (Index i = 0; i < corners_.nodes[0]; ++i) corners_.values[corners_.node(i, j, k)] = exact(corners_.place(i, j, k));
+      for (Index i = 0; i < corners_.nodes[0]; ++i)
+        corners_.values[corners_.node(i, j, k)] = exact(corners_.place(i, j, k));
     });
     mark_near(points);
     mark_crossed();
@@ -82,9 +83,8 @@ class FieldCubes {
     for (Index i = 0; i < grid_.nodes[0]; ++i) {
       const Index cube_i = std::min(i / kCubeCells, corners_.nodes[0] - 2);
       const Eigen::RowVector3d place = grid_.place(i, j, k);
-      grid_.values[grid_.node(i, j, k)] = near_[corners_.node(cube_i, cube_j, cube_k)] != 0
-                                              ? exact(place)
-                                              : static_cast<float>(corners_.at(place));
+      grid_.values[grid_.node(i, j, k)] =
+          near_[corners_.node(cube_i, cube_j, cube_k)] != 0 ? exact(place) : static_cast<float>(corners_.at(place));
     }
   }
 

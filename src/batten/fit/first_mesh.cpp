@@ -43,7 +43,8 @@ std::vector<CloudField> cloud_fields(const PointCloud& cloud, Index vertices, co
     const double count = static_cast<double>(groups.size());
     const Progress part = progress_within(progress, g / count, (g + 1) / count);
     const bool whole = static_cast<Eigen::Index>(groups[g].size()) == cloud.points.rows();
-    CloudSamples samples = prepare_cloud(whole ? cloud : taken_rows(cloud, groups[g]), vertices, progress_within(part, 0.0, 0.7));
+    CloudSamples samples =
+        prepare_cloud(whole ? cloud : taken_rows(cloud, groups[g]), vertices, progress_within(part, 0.0, 0.7));
     fields.emplace_back(std::move(samples), vertices, progress_within(part, 0.7, 1.0));
   }
   return fields;
@@ -105,7 +106,8 @@ FirstMesh first_mesh(const PointCloud& cloud, const FirstMeshOptions& options, c
       }
     }
     const double count = static_cast<double>(fields.size());
-    found[g] = find_contour(fields[g], own, progress_within(progress, 0.7 + 0.3 * (step - 1) / count, 0.7 + 0.3 * step / count));
+    found[g] = find_contour(fields[g], own,
+                            progress_within(progress, 0.7 + 0.3 * (step - 1) / count, 0.7 + 0.3 * step / count));
   }
   FirstMesh result;
   for (std::size_t g = 0; g < fields.size(); ++g) append_contour(result, found[g], fields[g]);

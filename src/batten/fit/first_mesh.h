@@ -22,8 +22,8 @@ enum class QuadPattern {
 struct FirstMeshOptions {
   FaceKind faces = FaceKind::Quads;
   QuadPattern pattern = QuadPattern::Adapted;
-  Index vertices = 400;            ///< about so many; 8 to 1,000,000
-  std::optional<Index> genus;      ///< of all components together: no other is taken
+  Index vertices = 400;        ///< about so many; 8 to 1,000,000
+  std::optional<Index> genus;  ///< of all components together: no other is taken
   /// Gaps between points up to this width are closed, wider ones become boundaries. Without: gaps are closed where they
   /// are less than a fifth of the box's longest side wide.
   std::optional<double> bridge;

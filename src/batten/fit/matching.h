@@ -17,7 +17,7 @@ struct MatchedPair {
   }
 };
 
-/// The partner of each node, or -1: as many pairs as possible (Edmonds 1965, key Edm65). As many as possible cost less
+/// The partner of each node, or -1: as many pairs as possible (Edmonds 1965, key E65). As many as possible cost less
 /// than the first limit, of the others as many as possible less than the second, and so on; within that the cheapest
 /// are taken first. `pairs` come in order. O(limits * nodes * pairs) at worst.
 std::vector<Index> maximum_matching(Index nodes, const std::vector<MatchedPair>& pairs,

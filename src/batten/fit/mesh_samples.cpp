@@ -50,7 +50,9 @@ SampledTriangles sampled_triangles(const Mesh& mesh, const Topology& topology) {
   return triangles;
 }
 
-Eigen::RowVector3d unit_normal(const Mesh& mesh, Index face) { return face_normal(mesh, face).normalized().transpose(); }
+Eigen::RowVector3d unit_normal(const Mesh& mesh, Index face) {
+  return face_normal(mesh, face).normalized().transpose();
+}
 
 /// An edge to be sampled, and in how many parts.
 struct SampledEdge {
@@ -69,8 +71,8 @@ std::vector<SampledEdge> sampled_edges(const Mesh& mesh, const Topology& topolog
     if (boundary != (kind == SampleKind::Boundary)) continue;
     if (!boundary && !(topology.edge_sharpness(e) > 0.0F)) {
       if (!(sharp_angle < std::numbers::pi)) continue;
-      const double turn = angle_between(unit_normal(mesh, topology.face(h)),
-                                        unit_normal(mesh, topology.face(topology.twin(h))));
+      const double turn =
+          angle_between(unit_normal(mesh, topology.face(h)), unit_normal(mesh, topology.face(topology.twin(h))));
       if (!(turn > sharp_angle)) continue;
     }
     const double length = (mesh.points.row(topology.origin(h)) - mesh.points.row(topology.destination(h))).norm();
@@ -116,7 +118,8 @@ void take_faces(MeshSamples& samples, const Mesh& mesh, const SampledTriangles& 
         v = 1.0 - v;
       }
       const std::array<Index, 3>& t = triangles.corners[triangle];
-      samples.points.row(i) = (1.0 - u - v) * mesh.points.row(t[0]) + u * mesh.points.row(t[1]) + v * mesh.points.row(t[2]);
+      samples.points.row(i) =
+          (1.0 - u - v) * mesh.points.row(t[0]) + u * mesh.points.row(t[1]) + v * mesh.points.row(t[2]);
       samples.normals.row(i) = area_normal(mesh, t).normalized();
       samples.kinds[i] = SampleKind::Face;
       samples.faces[i] = triangles.faces[triangle];
@@ -129,8 +132,7 @@ void take_faces(MeshSamples& samples, const Mesh& mesh, const SampledTriangles& 
 
 MeshSamples sample_mesh(const Mesh& mesh, Index count, const MeshSampleOptions& options, const Progress& progress) {
   constexpr Index kMost = 100000000;
-  if (count < 1 || count > kMost)
-    throw Error(ErrorCode::BadArgument, "a mesh is sampled at 1 to 100,000,000 places");
+  if (count < 1 || count > kMost) throw Error(ErrorCode::BadArgument, "a mesh is sampled at 1 to 100,000,000 places");
   if (!(options.sharp_angle >= 0.0 && options.sharp_angle <= std::numbers::pi))
     throw Error(ErrorCode::BadArgument, "the angle of sharp edges is between 0 and pi");
   const Topology topology(mesh, progress_within(progress, 0.0, 0.3));

@@ -22,16 +22,16 @@ struct MeshSampleOptions {
 
 /// Row i is sample i: first those on faces, then creases, then boundaries.
 struct MeshSamples {
-  Points points;              ///< N-by-3
-  Points normals;             ///< of length 1: of the face; on a crease the mean of both; zero where a face has none
-  Buffer<SampleKind> kinds;   ///< N
-  Buffer<Index> faces;        ///< N: the face that the sample lies on, one of two on a crease
-  double spacing = 0.0;       ///< the distance of samples along creases and boundaries: sqrt(area / count)
+  Points points;             ///< N-by-3
+  Points normals;            ///< of length 1: of the face; on a crease the mean of both; zero where a face has none
+  Buffer<SampleKind> kinds;  ///< N
+  Buffer<Index> faces;       ///< N: the face that the sample lies on, one of two on a crease
+  double spacing = 0.0;      ///< the distance of samples along creases and boundaries: sqrt(area / count)
 };
 
 /// Spreads `count` samples by area over the faces, which are split as triangulate_face() does, and others at about the
 /// same distance along creases and boundaries. The k-th sample lies where k + 1/2 of count parts of the area are
-/// reached, face after face, at a place in its triangle that a low-discrepancy sequence gives (Roberts 2018, key Rob18):
+/// reached, face after face, at a place in its triangle that a low-discrepancy sequence gives (Roberts 2018, key R18):
 /// the same samples each time. Holes are left out. O(H + count), threaded. Throws Error: what Topology throws;
 /// BadArgument (no area, a count below 1 or above 100 million, an angle out of [0, pi]), Cancelled.
 MeshSamples sample_mesh(const Mesh& mesh, Index count, const MeshSampleOptions& options = {},

@@ -60,7 +60,8 @@ bool take_out_doublets(Mesh& mesh) {
     const Index h = topology.vertex_half_edge(v);
     const Index first = topology.face(h);
     const Index second = topology.face(topology.twin(h));
-    if (topology.face_size(first) != 4 || topology.face_size(second) != 4 || touched[first] != 0 || touched[second] != 0)
+    if (topology.face_size(first) != 4 || topology.face_size(second) != 4 || touched[first] != 0 ||
+        touched[second] != 0)
       continue;
     // The corner of the second face across from v takes the place of v in the first. The second face runs from v along
     // the edge after the twin.
@@ -81,8 +82,7 @@ bool take_out_doublets(Mesh& mesh) {
 Mesh paired_quads(const Mesh& mesh) {
   const Topology topology(mesh);
   const std::vector<double> limits{0.3, 0.45, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2};
-  const std::vector<Index> partner =
-      maximum_matching(mesh.face_count(), ranked_pairs(topology, mesh.points), limits);
+  const std::vector<Index> partner = maximum_matching(mesh.face_count(), ranked_pairs(topology, mesh.points), limits);
   Mesh quads;
   quads.points = mesh.points;
   for (Index f = 0; f < mesh.face_count(); ++f) {

@@ -83,7 +83,8 @@ Eigen::RowVector3d boundary_place(const Topology& topology, const Points& points
   const Eigen::RowVector3d after = points.row(topology.destination(out));
   const Eigen::RowVector3d before = points.row(topology.origin(in));
   const Eigen::RowVector3d along = (after - before).normalized();
-  const Eigen::RowVector3d across = along.cross(ring.normal).normalized();  // away from the faces, which lie on the left
+  const Eigen::RowVector3d across =
+      along.cross(ring.normal).normalized();  // away from the faces, which lie on the left
   const Eigen::RowVector3d place = field.nearest_place(0.5 * points.row(vertex) + 0.25 * (after + before), ring.normal);
   std::array<Index, kNear> near{};
   std::array<double, kNear> squares{};

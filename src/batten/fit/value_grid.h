@@ -20,9 +20,7 @@ struct ValueGrid {
     return i + static_cast<std::ptrdiff_t>(nodes[0]) * (j + static_cast<std::ptrdiff_t>(nodes[1]) * k);
   }
   std::ptrdiff_t count() const { return static_cast<std::ptrdiff_t>(nodes[0]) * nodes[1] * nodes[2]; }
-  Eigen::RowVector3d place(Index i, Index j, Index k) const {
-    return origin + spacing * Eigen::RowVector3d(i, j, k);
-  }
+  Eigen::RowVector3d place(Index i, Index j, Index k) const { return origin + spacing * Eigen::RowVector3d(i, j, k); }
   /// Linear in each direction; places outside take the number of the nearest place of the grid.
   double at(const Eigen::RowVector3d& place) const {
     std::array<Index, 3> cell{};
@@ -48,7 +46,8 @@ inline ValueGrid grid_over(const Eigen::RowVector3d& low, const Eigen::RowVector
   ValueGrid grid;
   grid.origin = low;
   grid.spacing = spacing;
-  for (int c = 0; c < 3; ++c) grid.nodes[c] = std::max<Index>(2, static_cast<Index>(std::ceil((high(c) - low(c)) / spacing)) + 1);
+  for (int c = 0; c < 3; ++c)
+    grid.nodes[c] = std::max<Index>(2, static_cast<Index>(std::ceil((high(c) - low(c)) / spacing)) + 1);
   grid.values.resize(static_cast<std::size_t>(grid.count()));
   return grid;
 }

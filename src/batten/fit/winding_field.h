@@ -1,8 +1,8 @@
 /// \file How often a cloud of points with normals winds around a place: near 1 inside, near 0 outside.
 ///
 /// Each point stands for a small piece of the surface, and the solid angles of the pieces are added (Barill and others
-/// 2018, key BDKGJ18): w(q) = sum_i a_i n_i . (p_i - q) / (4 pi (|p_i - q|^2 + e_i^2)^(3/2)). Holes are closed smoothly.
-/// Unlike there, e_i, a share of the spacing, keeps the field bounded near a point.
+/// 2018, key BDSLJ18): w(q) = sum_i a_i n_i . (p_i - q) / (4 pi (|p_i - q|^2 + e_i^2)^(3/2)). Holes are closed
+/// smoothly. Unlike there, e_i, a share of the spacing, keeps the field bounded near a point.
 #pragma once
 #include "batten/buffer.h"
 #include "batten/types.h"
