@@ -50,9 +50,13 @@ Mesh starting_mesh(const PointCloud& cloud, const FitOptions& options, const Pro
   if (options.initial) return *options.initial;
   if (options.start == FitStart::Sphere) return start_sphere(cloud.points, options.scheme.kind);
   constexpr Index kLeast = 50;
+  constexpr Eigen::Index kOfFirstVertex = 4;
   FirstMeshOptions first;
   first.faces = options.scheme.kind == SchemeKind::Loop ? FaceKind::Triangles : FaceKind::Quads;
-  first.vertices = std::max(kLeast, options.vertices.value_or(kUsualVertices));
+  const Index vertices = options.vertices.value_or(kUsualVertices);
+  // A mesh with a vertex for every few points would take their unevenness for shape: refine later.
+  const bool dense = cloud.points.rows() >= kOfFirstVertex * static_cast<Eigen::Index>(vertices);
+  first.vertices = std::max(kLeast, dense ? vertices : vertices / 4);
   first.genus = options.genus;
   first.bridge = options.bridge;
   return first_mesh(cloud, first, progress).mesh;
@@ -123,7 +127,7 @@ class FitRun {
       if (last || report_.end == FitEnd::Tolerance) return;
       fitter_.refine();
       fitter_.attach(progress);
-      judged_ = false;
+      judged_ = 0;
       schedule_.note_refined();
     }
   }
@@ -164,8 +168,8 @@ class FitRun {
   bool leave_out_far() {
     Buffer<std::uint8_t> flags = filter_.lonely();
     filter_.add_far(fitter_.distances(), flags);
-    if (judged_ || flags == outliers_) return false;
-    judged_ = true;
+    if (judged_ == kJudgements || flags == outliers_) return false;
+    ++judged_;
     outliers_ = std::move(flags);
     set_weights(0.0);
     schedule_.note_outliers(measured());
@@ -247,7 +251,8 @@ class FitRun {
   const OutlierFilter& filter_;
   Buffer<std::uint8_t> outliers_;
   FitSchedule schedule_;
-  bool judged_ = false;  ///< which points of the present level are outliers
+  static constexpr int kJudgements = 3;
+  int judged_ = 0;  ///< how often outliers were sought for the present control mesh
 };
 
 /// From places spread over the surface to the nearest points.

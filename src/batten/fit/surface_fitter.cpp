@@ -191,7 +191,7 @@ void pull_to_surface(const FitState& parts, const std::vector<Jet>& jets, Pulls&
   });
 }
 
-/// Each sample of the surface is drawn to the nearest point whose normal agrees.
+/// Each sample of the surface is drawn to the nearest point whose normal agrees; points of no weight draw nothing.
 void pull_to_data(const FitState& parts, const std::vector<Jet>& jets, double weight, Pulls& pulls) {
   constexpr Index kCandidates = 8;
   const FitLevel& level = *parts.level;
@@ -205,7 +205,7 @@ void pull_to_data(const FitState& parts, const std::vector<Jet>& jets, double we
       const Jet& jet = jets[static_cast<std::size_t>(first + i)];
       const Index count = parts.tree.nearest(jet.point.transpose(), kCandidates, found, squares);
       Index k = 0;
-      while (k < count && are_opposed(jet, parts.cloud, found[k])) ++k;
+      while (k < count && (!(parts.weights[found[k]] > 0.0) || are_opposed(jet, parts.cloud, found[k]))) ++k;
       if (k == count) continue;
       const Eigen::Vector3d offset = parts.cloud.points.row(found[k]).transpose() - jet.point;
       pulls.offsets.row(first + i) = offset.transpose();
