@@ -55,26 +55,24 @@ struct KnownCloud {
 /// by a sixth.
 TEST(FirstMesh, HasGenusAndVolumeOfKnownSurfaces) {
   const double pi = std::numbers::pi;
-  for (const FaceKind faces : {FaceKind::Quads, FaceKind::Triangles}) {
-    for (const KnownCloud& known : {KnownCloud{"sphere", CloudMaker().sphere(1500), 0, 4.0 / 3.0 * pi},
-                                    KnownCloud{"torus", CloudMaker().torus(2000), 1, 2.0 * pi * pi * 0.35 * 0.35},
-                                    KnownCloud{"thin torus", CloudMaker().torus(2000, 1.0, 0.1), 1, 0.02 * pi * pi},
-                                    KnownCloud{"double torus", CloudMaker().double_torus(4000), 2, 0.0}}) {
-      FirstMeshOptions options;
-      options.faces = faces;
-      const FirstMesh found = first_mesh({known.points, {}}, options);
-      SCOPED_TRACE(known.name);
-      expect_closed(found, known.genus);
-      EXPECT_NEAR(found.mesh.vertex_count(), options.vertices, 0.05 * options.vertices);
-      if (known.volume == 0.0) continue;
-      EXPECT_NEAR(test::examine(found.mesh).volume, known.volume, 0.2 * known.volume);
-    }
+  FirstMeshOptions options;
+  for (const KnownCloud& known : {KnownCloud{"sphere", CloudMaker().sphere(1500), 0, 4.0 / 3.0 * pi},
+                                  KnownCloud{"torus", CloudMaker().torus(2000), 1, 2.0 * pi * pi * 0.35 * 0.35},
+                                  KnownCloud{"thin torus", CloudMaker().torus(2000, 1.0, 0.1), 1, 0.02 * pi * pi},
+                                  KnownCloud{"double torus", CloudMaker().double_torus(4000), 2, 0.0}}) {
+    SCOPED_TRACE(known.name);
+    options.faces = options.faces == FaceKind::Quads ? FaceKind::Triangles : FaceKind::Quads;
+    const FirstMesh found = first_mesh({known.points, {}}, options);
+    expect_closed(found, known.genus);
+    EXPECT_NEAR(found.mesh.vertex_count(), options.vertices, 0.05 * options.vertices);
+    if (known.volume == 0.0) continue;
+    EXPECT_NEAR(test::examine(found.mesh).volume, known.volume, 0.2 * known.volume);
   }
 }
 
 /// The unit sphere again: no vertex farther than the depth of a cap over one face, about h^2 / 8 for edges of h.
 TEST(FirstMesh, LiesOnTheSphere) {
-  const FirstMesh found = first_mesh({CloudMaker().sphere(3000), {}});
+  const FirstMesh found = first_mesh({CloudMaker().sphere(2000), {}});
   for (Index v = 0; v < found.mesh.vertex_count(); ++v) EXPECT_NEAR(found.mesh.points.row(v).norm(), 1.0, 0.01);
 }
 
@@ -96,9 +94,9 @@ TEST(FirstMesh, DoesNotDependOnTheOrderOfPoints) {
 /// Thinned clouds too: 60,000 points are more than are taken one by one.
 TEST(FirstMesh, DoesNotDependOnTheOrderOfManyPoints) {
   CloudMaker maker;
-  const Points points = maker.with_outliers(maker.sphere(60000), 0.1);
+  const Points points = maker.with_outliers(maker.torus(60000, 1.0, 0.2), 0.1);
   const FirstMesh found = first_mesh({points, {}});
-  expect_closed(found, 0);
+  expect_closed(found, 1);
   EXPECT_EQ(found.mesh.points, first_mesh({maker.shuffled(points), {}}).mesh.points);
   EXPECT_NEAR(found.outliers, 5000, 1000);
 }
@@ -264,7 +262,7 @@ TEST(FirstMesh, StopsWhenAskedTo) {
   }
 }
 
-/// Scanned and sampled shapes: their genus, with and without outliers.
+/// Scanned and sampled shapes, with one outlier to ten points.
 TEST(FirstMesh, HasTheGenusOfRealShapes) {
   const std::string folder = test::cloud_folder();
   if (folder.empty()) GTEST_SKIP() << "BATTEN_DATA is not set";
@@ -276,9 +274,6 @@ TEST(FirstMesh, HasTheGenusOfRealShapes) {
                                     {"rocker-arm-2000", 1}}) {
     SCOPED_TRACE(name);
     const Points points = read_mesh(folder + name + ".xyz").points;
-    FirstMeshOptions options;
-    options.faces = FaceKind::Triangles;
-    expect_closed(first_mesh({points, {}}, options), genus);
     expect_closed(first_mesh({CloudMaker().with_outliers(points, 0.1), {}}), genus);
   }
 }

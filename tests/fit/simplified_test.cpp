@@ -6,8 +6,10 @@
 
 #include "batten/fit/matching.h"
 #include "batten/fit/paired_quads.h"
+#include "batten/fit/quad_turns.h"
 #include "batten/mesh/primitives.h"
 #include "batten/mesh/repair.h"
+#include "batten/mesh/summary.h"
 #include "batten/mesh/triangulate.h"
 #include "fit/clouds.h"
 #include "mesh/manifold.h"
@@ -80,6 +82,24 @@ TEST(PairedQuads, LeavesNoTriangleOnClosedSurfaces) {
 TEST(PairedQuads, FindsTheGridThatWasCutUp) {
   const Mesh quads = paired_quads(triangulated(grid(6, 5)));
   EXPECT_EQ(quads.face_count(), 30);
+}
+
+TEST(QuadTurns, MakeQuadsMoreRegular) {
+  Mesh quads = paired_quads(simplified(triangulated(torus(40, 20)), 200));
+  const auto irregular = [](const Mesh& mesh) {
+    const MeshSummary summary = summarize(Topology(mesh));
+    return mesh.vertex_count() - summary.valences.at(4);
+  };
+  const Index before = irregular(quads);
+  turn_quad_edges(quads);
+  const test::ManifoldReport report = test::examine(quads);
+  EXPECT_TRUE(report.valid) << report.reason;
+  EXPECT_EQ(report.euler, 0);
+  EXPECT_LT(irregular(quads), 0.85 * before);
+  Mesh regular = torus(12, 8);
+  const Buffer<Index> faces = regular.face_vertices;
+  turn_quad_edges(regular);
+  EXPECT_EQ(regular.face_vertices, faces) << "nothing is to be gained";
 }
 
 /// Petersen's graph, where greedy pairs get stuck, and a path whose inner pair is the cheapest.

@@ -23,7 +23,7 @@ struct FaceReach {
 FaceReach face_reach(const Mesh& mesh, const CloudField& field, double face_size) {
   constexpr double kFarSpacings = 3.0;
   constexpr double kFarFaces = 0.5;
-  constexpr Index kAround = 16;
+  constexpr Index kAround = 12;
   constexpr Index kFewest = 6;
   constexpr double kLean = 0.5;  // 4 / (3 pi) = 0.42 where the samples end in a straight line
   const Index around = std::clamp<Index>(field.tree.size() / 8, 1, kAround);

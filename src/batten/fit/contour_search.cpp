@@ -13,6 +13,7 @@
 #include "batten/fit/contour_parts.h"
 #include "batten/fit/dual_contour.h"
 #include "batten/fit/paired_quads.h"
+#include "batten/fit/quad_turns.h"
 #include "batten/fit/relaxed_contour.h"
 #include "batten/fit/simplified.h"
 #include "batten/mesh/triangulate.h"
@@ -24,6 +25,7 @@ namespace {
 
 constexpr Index kSupportPlaces = 1500;
 constexpr int kRelaxRounds = 3;
+constexpr int kTurnRounds = 3;
 
 /// The genus and number of components.
 struct Shape {
@@ -180,7 +182,10 @@ FoundContour find_contour(const CloudField& field, const FirstMeshOptions& optio
   found.mesh = simplified(triangulated(found.mesh), options.vertices, progress_within(progress, 0.7, 0.9));
   if (options.faces == FaceKind::Triangles) return found;
   found.mesh = paired_quads(found.mesh);
-  relax_contour(found.mesh, field, kRelaxRounds);
+  for (int round = 0; round < kTurnRounds; ++round) {
+    turn_quad_edges(found.mesh);
+    relax_contour(found.mesh, field, 1);
+  }
   return found;
 }
 

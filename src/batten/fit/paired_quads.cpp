@@ -8,6 +8,7 @@
 
 #include "batten/fit/contour_parts.h"
 #include "batten/fit/matching.h"
+#include "batten/fit/quad_turns.h"
 #include "batten/mesh/topology.h"
 
 namespace batten {
@@ -21,21 +22,6 @@ std::array<Index, 4> quad_across(const Topology& topology, Index h) {
           topology.origin(topology.previous(h))};
 }
 
-/// 0 for a flat rectangle; more where corners are not square or the quad is bent.
-double pair_badness(const Topology& topology, const Points& points, Index h) {
-  const std::array<Index, 4> quad = quad_across(topology, h);
-  double worst = 0.0;
-  std::array<Eigen::RowVector3d, 4> normals;
-  for (int c = 0; c < 4; ++c) {
-    const Eigen::RowVector3d next = (points.row(quad[(c + 1) % 4]) - points.row(quad[c])).normalized();
-    const Eigen::RowVector3d last = (points.row(quad[(c + 3) % 4]) - points.row(quad[c])).normalized();
-    worst = std::max(worst, std::abs(next.dot(last)));
-    normals[c] = next.cross(last).normalized();
-  }
-  for (int c = 0; c < 4; ++c) worst = std::max(worst, 1.0 - normals[c].dot(normals[(c + 1) % 4]));
-  return worst;
-}
-
 std::vector<MatchedPair> ranked_pairs(const Topology& topology, const Points& points) {
   std::vector<MatchedPair> pairs;
   for (Index e = 0; e < topology.edge_count(); ++e) {
@@ -43,7 +29,7 @@ std::vector<MatchedPair> ranked_pairs(const Topology& topology, const Points& po
     const Index h = topology.edge_half_edge(e);
     const Index a = topology.face(h);
     const Index b = topology.face(topology.twin(h));
-    pairs.push_back({pair_badness(topology, points, h), std::min(a, b), std::max(a, b)});
+    pairs.push_back({quad_badness(points, quad_across(topology, h).data()), std::min(a, b), std::max(a, b)});
   }
   std::sort(pairs.begin(), pairs.end());
   return pairs;

@@ -9,7 +9,7 @@ namespace batten {
 namespace {
 
 constexpr Index kWindingLeaf = 8;
-constexpr double kOpening = 3.0;
+constexpr double kOpening = 2.5;
 
 }  // namespace
 

@@ -15,7 +15,7 @@ class WindingField {
   /// points, normals: N-by-3; areas, widths (e): N. O(N log N).
   WindingField(const Points& points, const Points& normals, const Scalars& areas, const Scalars& widths);
 
-  /// About 0.5 % exact: pieces that are together seen from three of their radii away count as one. O(log N).
+  /// About 1 % exact: pieces that are together seen from 2.5 of their radii away count as one. O(log N).
   double value(const Eigen::RowVector3d& place) const;
   /// The direction in which it falls fastest, by the same rule: outwards on the surface.
   Eigen::RowVector3d fall(const Eigen::RowVector3d& place) const;
