@@ -125,7 +125,7 @@ TEST(EnclosingSphere, IsTheSmallest) {
 TEST(OutlierFilter, FindsLonelyPointsAndThoseFarAmongNearOnes) {
   Points points = CloudMaker().sphere(1000);
   points.row(0) *= 2.0;
-  const OutlierFilter filter{PointTree(points)};
+  const OutlierFilter filter(points);
   Buffer<std::uint8_t> flags = filter.lonely();
   EXPECT_EQ(flags[0], 1);
   EXPECT_LE(std::count(flags.begin(), flags.end(), 1), 5) << "even where points lie at random";
@@ -139,7 +139,7 @@ TEST(OutlierFilter, FindsLonelyPointsAndThoseFarAmongNearOnes) {
 
 TEST(OutlierFilter, KeepsAPartThatIsFarAsAWhole) {
   const Points points = CloudMaker().sphere(1000);
-  const OutlierFilter filter{PointTree(points)};
+  const OutlierFilter filter(points);
   Scalars distances = Scalars::Constant(1000, 1e-4);
   for (Index i = 0; i < 1000; ++i) distances[i] += 0.3 * std::max(0.0, points(i, 2) - 0.3);
   Buffer<std::uint8_t> flags(1000, 0);

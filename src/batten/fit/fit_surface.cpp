@@ -305,7 +305,7 @@ FitResult fit_surface(const PointCloud& cloud, const FitOptions& options, const 
   const Mesh start = starting_mesh(known, options, preparing);
   SurfaceFitter fitter(Topology(start), options.scheme, start.points, known, preparing);
   fitter.attach(preparing);
-  const OutlierFilter filter(PointTree(known.points), preparing);
+  const OutlierFilter filter(known.points, preparing);
   FitRun run(fitter, options, report, filter);
   const Progress rounds = progress_within(progress, 0.2, 1.0);
   try {
@@ -317,7 +317,7 @@ FitResult fit_surface(const PointCloud& cloud, const FitOptions& options, const 
   }
   Scalars distances = measure_to_surface(fitter, cloud.points);
   const bool thinned = known.points.rows() < cloud.points.rows();
-  const OutlierFilter whole = thinned ? OutlierFilter(PointTree(cloud.points)) : filter;
+  const OutlierFilter whole = thinned ? OutlierFilter(cloud.points) : filter;
   Buffer<std::uint8_t> outliers = run.outliers();
   if (thinned) {
     outliers = whole.lonely();

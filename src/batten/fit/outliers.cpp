@@ -1,8 +1,9 @@
 #include "batten/fit/outliers.h"
 
 #include <algorithm>
-#include <array>
+#include <utility>
 
+#include "batten/fit/orientation.h"
 #include "batten/parallel/parallel.h"
 #include "batten/quantile.h"
 
@@ -10,64 +11,93 @@ namespace batten {
 
 namespace {
 
-constexpr Index kNeighbours = 8;
-constexpr double kLonelyHere = 3.0;
-constexpr double kLonelyAnywhere = 6.0;
+constexpr Index kSpacingNeighbours = 6;
 constexpr double kFar = 8.0;
 constexpr double kFarInSpacings = 1.5;
 
-/// The median over a point's neighbours; 0 without any.
-template <typename Number>
-double median_around(const NeighbourTable& table, Index point, const Number& number) {
-  std::array<double, kNeighbours> values{};
-  std::ptrdiff_t count = 0;
-  for (Index k = 0; k < table.count; ++k) {
-    const Index other = table.point(point, k);
-    if (other >= 0) values[static_cast<std::size_t>(count++)] = number(other);
-  }
-  if (count == 0) return 0.0;
-  std::nth_element(values.begin(), values.begin() + count / 2, values.begin() + count);
-  return values[static_cast<std::size_t>(count / 2)];
+double median_neighbour(const Scalars& numbers, const NeighbourTable& neighbours, Index row, std::vector<double>& few) {
+  few.clear();
+  for (Index k = 0; k < neighbours.count && neighbours.point(row, k) >= 0; ++k)
+    few.push_back(numbers(neighbours.point(row, k)));
+  return quantile(few, 0.5);
 }
 
 }  // namespace
 
-OutlierFilter::OutlierFilter(const PointTree& tree, const Progress& progress)
-    : neighbours_(find_neighbours(tree, kNeighbours, progress)), own_(static_cast<std::size_t>(tree.size()), 0.0) {
-  Buffer<double> nearest(own_.size(), 0.0);
-  for (Index i = 0; i < tree.size(); ++i) {
+Scalars spacing_of(const NeighbourTable& neighbours, Index size) {
+  Scalars spacing(size);
+  for (Index row = 0; row < size; ++row) {
+    double sum = 0.0;
     Index count = 0;
-    for (Index k = 0; k < neighbours_.count && neighbours_.point(i, k) >= 0; ++k) {
-      own_[i] += neighbours_.distance(i, k);
-      ++count;
-    }
-    if (count == 0) continue;
-    own_[i] /= count;
-    nearest[i] = neighbours_.distance(i, 0);
+    for (; count < kSpacingNeighbours && neighbours.point(row, count) >= 0; ++count)
+      sum += neighbours.distance(row, count);
+    spacing(row) = sum / std::max<Index>(count, 1);
   }
-  if (own_.empty()) return;
-  Buffer<double> sorted = own_;
-  usual_ = quantile(sorted, 0.5);
-  spacing_ = quantile(nearest, 0.5);
+  return spacing;
 }
 
-Buffer<std::uint8_t> OutlierFilter::lonely() const {
-  Buffer<std::uint8_t> flags(own_.size(), 0);
-  parallel_for(static_cast<std::ptrdiff_t>(own_.size()), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    for (auto i = static_cast<Index>(begin); i < static_cast<Index>(end); ++i) {
-      const double here = median_around(neighbours_, i, [&](Index other) { return own_[other]; });
-      flags[i] = own_[i] > kLonelyHere * here || own_[i] > kLonelyAnywhere * usual_ ? 1 : 0;
+std::vector<std::uint8_t> without_lonely(const Points& points, const NeighbourTable& neighbours,
+                                         const Scalars& spacing) {
+  constexpr double kRough = 0.06;
+  std::vector<std::uint8_t> kept(static_cast<std::size_t>(spacing.size()), 1);
+  std::vector<double> few(spacing.data(), spacing.data() + spacing.size());
+  const double typical = quantile(few, 0.5);
+  const Scalars roughness = local_planes(points, neighbours).roughness;
+  for (Index row = 0; row < static_cast<Index>(spacing.size()); ++row) {
+    const double near = median_neighbour(spacing, neighbours, row, few);
+    const bool rough = roughness(row) > kRough;
+    const bool alone = spacing(row) > 2.2 * near && (rough || spacing(row) > 4.0 * near);
+    if (alone || (rough && spacing(row) > 2.5 * typical)) kept[row] = 0;
+  }
+  return kept;
+}
+
+OutlierFilter::OutlierFilter(const Points& points, const Progress& progress)
+    : neighbours_(find_neighbours(PointTree(points), kCloudNeighbours, progress)),
+      lonely_(static_cast<std::size_t>(points.rows()), 0) {
+  Buffer<double> nearest;
+  for (Index i = 0; i < static_cast<Index>(points.rows()); ++i) {
+    if (neighbours_.point(i, 0) >= 0) nearest.push_back(neighbours_.distance(i, 0));
+  }
+  if (!nearest.empty()) spacing_ = quantile(nearest, 0.5);
+  find_lonely(points);
+}
+
+void OutlierFilter::find_lonely(const Points& points) {
+  constexpr int kRounds = 3;
+  constexpr std::size_t kFewest = 50;
+  std::vector<Index> rows(lonely_.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = static_cast<Index>(i);
+  for (int round = 0; round < kRounds && rows.size() >= kFewest; ++round) {
+    const Points left = points(rows, Eigen::all);
+    const auto size = static_cast<Index>(rows.size());
+    const NeighbourTable among = round == 0 ? neighbours_ : find_neighbours(PointTree(left), kCloudNeighbours);
+    const std::vector<std::uint8_t> kept = without_lonely(left, among, spacing_of(among, size));
+    const auto count = std::count(kept.begin(), kept.end(), 1);
+    if (count == size || count < size / 2) break;
+    std::vector<Index> next;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (kept[i] != 0) {
+        next.push_back(rows[i]);
+      } else {
+        lonely_[rows[i]] = 1;
+      }
     }
-  });
-  return flags;
+    rows = std::move(next);
+  }
 }
 
 void OutlierFilter::add_far(const Scalars& distances, Buffer<std::uint8_t>& flags) const {
-  parallel_for(static_cast<std::ptrdiff_t>(own_.size()), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+  parallel_for(static_cast<std::ptrdiff_t>(lonely_.size()), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    std::vector<double> around;
     for (auto i = static_cast<Index>(begin); i < static_cast<Index>(end); ++i) {
       if (!(distances[i] > kFarInSpacings * spacing_)) continue;
-      if (distances[i] > kFar * median_around(neighbours_, i, [&](Index other) { return distances[other]; }))
-        flags[i] = 1;
+      around.clear();
+      for (Index k = 0; k < neighbours_.count && neighbours_.point(i, k) >= 0; ++k) {
+        const Index other = neighbours_.point(i, k);
+        if (lonely_[other] == 0) around.push_back(distances[other]);
+      }
+      if (around.empty() || distances[i] > kFar * quantile(around, 0.5)) flags[i] = 1;
     }
   });
 }
