@@ -201,7 +201,7 @@ TEST_F(DocsReport, PageNamesEveryEntryOfEveryVerb) {
         "subdivide @pyramid.obj --compare --levels 2", "distance @cube.obj @cube.obj",
         "denoise @tripod.obj --auto --features 40", "sharpen @tripod.obj --passes 4", "bands @tripod.obj --count 3",
         "texture @cube.obj --preset wood --levels 1", "morph @creature.obj @creature-ball.obj --rho 0.5 --frames 3",
-        "medial @bean.srep.json", "medial @fork.json", "medial @slab.json --normals",
+        "fit @cube.obj --init sphere --vertices 100", "medial @bean.srep.json", "medial @fork.json", "medial @slab.json --normals",
         "interpolate @pipe-joint.obj --normals estimate", "morph @tripod.obj @tripod.obj --resample --at 1",
         "repair @broken-tripod.obj", "info @bracket.obj", "info @broken-tripod.obj"}) {
     const Outcome run_of_verb = run(in_models(arguments) + " --report report.json");

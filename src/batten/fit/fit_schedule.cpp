@@ -18,7 +18,7 @@ constexpr double kMostEven = 3e-2;
 constexpr double kPullOfDistance = 1.0;
 constexpr double kPullFall = 0.8;
 /// A round gains where it takes off so much of what was left.
-constexpr double kGain = 0.03;
+constexpr double kGain = 0.02;
 /// A finer mesh has sixteen times as little energy for the same shape.
 constexpr double kOfRefined = 4.0;
 

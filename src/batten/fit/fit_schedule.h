@@ -29,7 +29,7 @@ class FitSchedule {
   bool is_stuck() const { return idle_ >= kIdle; }
 
  private:
-  static constexpr int kIdle = 2;
+  static constexpr int kIdle = 3;
   void choose(const FitErrors& errors);
 
   FitStep step_;

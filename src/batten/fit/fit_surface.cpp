@@ -180,8 +180,8 @@ class FitRun {
   /// RMS has not grown too much.
   void lower_worst(const Progress& progress) {
     // Where points are many, one alone is rarely far away, and rounds are long.
-    constexpr Eigen::Index kPointsInAll = 40000;
-    const auto rounds = static_cast<int>(std::clamp<Eigen::Index>(kPointsInAll / fitter_.distances().size(), 4, 16));
+    constexpr Eigen::Index kPointsInAll = 60000;
+    const auto rounds = static_cast<int>(std::clamp<Eigen::Index>(kPointsInAll / fitter_.distances().size(), 4, 24));
     constexpr double kExact = 1e-10;
     constexpr double kMostGrowth = 1.1;
     FitErrors best = measured();
