@@ -173,13 +173,11 @@ int run_fit(const FitArguments& arguments) {
   const FitOptions options = options_of(arguments, job.mesh, job);
   const Index vertices = std::max(options.vertices.value_or(0), options.initial ? options.initial->vertex_count() : 0);
   Mesh points;
-  PointCloud cloud =
-      job.mesh.face_count() > 0 ? sampled_cloud(job.mesh, vertices) : stated_cloud(std::move(job.mesh));
+  PointCloud cloud = job.mesh.face_count() > 0 ? sampled_cloud(job.mesh, vertices) : stated_cloud(std::move(job.mesh));
   points.points = cloud.points;
   job.stages.finish("sample");
   ProgressBar bar("fitting", common.quiet);
-  const FitResult result =
-      fit_surface(cloud, options, bar.callback());
+  const FitResult result = fit_surface(cloud, options, bar.callback());
   job.stages.finish("fit");
   const std::string written = write_surface({result.mesh, result.topology, result.scheme}, -1, job);
   write_residuals(arguments, result, points);

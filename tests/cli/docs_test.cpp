@@ -195,15 +195,26 @@ using DocsReport = Tool;
 TEST_F(DocsReport, PageNamesEveryEntryOfEveryVerb) {
   const std::string page = text_of(kSource / "docs" / "report.md");
   const auto in_models = [](std::string arguments) { return std::regex_replace(arguments, std::regex("@"), kModels); };
-  for (const char* arguments :
-       {"interpolate @dented-cube.obj --compare-methods", "interpolate @pyramid.obj --fair",
-        "subdivide @tetrahedron.obj --levels 1", "subdivide @tripod.obj --chord 1% --edge-length 1 --angle 40",
-        "subdivide @pyramid.obj --compare --levels 2", "distance @cube.obj @cube.obj",
-        "denoise @tripod.obj --auto --features 40", "sharpen @tripod.obj --passes 4", "bands @tripod.obj --count 3",
-        "texture @cube.obj --preset wood --levels 1", "morph @creature.obj @creature-ball.obj --rho 0.5 --frames 3",
-        "fit @cube.obj --init sphere --vertices 100", "medial @bean.srep.json", "medial @fork.json", "medial @slab.json --normals",
-        "interpolate @pipe-joint.obj --normals estimate", "morph @tripod.obj @tripod.obj --resample --at 1",
-        "repair @broken-tripod.obj", "info @bracket.obj", "info @broken-tripod.obj"}) {
+  for (const char* arguments : {"interpolate @dented-cube.obj --compare-methods",
+                                "interpolate @pyramid.obj --fair",
+                                "subdivide @tetrahedron.obj --levels 1",
+                                "subdivide @tripod.obj --chord 1% --edge-length 1 --angle 40",
+                                "subdivide @pyramid.obj --compare --levels 2",
+                                "distance @cube.obj @cube.obj",
+                                "denoise @tripod.obj --auto --features 40",
+                                "sharpen @tripod.obj --passes 4",
+                                "bands @tripod.obj --count 3",
+                                "texture @cube.obj --preset wood --levels 1",
+                                "morph @creature.obj @creature-ball.obj --rho 0.5 --frames 3",
+                                "fit @cube.obj --init sphere --vertices 100",
+                                "medial @bean.srep.json",
+                                "medial @fork.json",
+                                "medial @slab.json --normals",
+                                "interpolate @pipe-joint.obj --normals estimate",
+                                "morph @tripod.obj @tripod.obj --resample --at 1",
+                                "repair @broken-tripod.obj",
+                                "info @bracket.obj",
+                                "info @broken-tripod.obj"}) {
     const Outcome run_of_verb = run(in_models(arguments) + " --report report.json");
     const std::set<std::string> names = entries_of(text_of(path("report.json")));
     EXPECT_GT(names.size(), 4U) << arguments << "\n" << run_of_verb.err;

@@ -78,10 +78,9 @@ TEST(NormalEquations, SolveWhatTheyState) {
     for (Index w = 0; w < kPoints; ++w) {
       matrix.block(3 * v, 3 * w, 3, 3) +=
           energy(v, w) * (0.3 * Eigen::Matrix3d::Identity() + 0.7 * plane(v) * plane(w));
-      right.segment(3 * v, 3) -= energy(v, w) *
-                                 (0.3 * Eigen::Matrix3d::Identity() +
-                                  0.7 * std::sqrt(fairness.stiffness[v]) * plane(v)) *
-                                 control.row(w).transpose();
+      right.segment(3 * v, 3) -=
+          energy(v, w) * (0.3 * Eigen::Matrix3d::Identity() + 0.7 * std::sqrt(fairness.stiffness[v]) * plane(v)) *
+          control.row(w).transpose();
     }
   }
   NormalEquations equations(NormalEquations::Matrix(energy.sparseView(0.0, 0.0)));

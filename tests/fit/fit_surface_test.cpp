@@ -163,8 +163,11 @@ TEST(FitSurface, RefusesCloudsThatNoSurfaceFits) {
   test::expect_error([&] { fit(hurt); }, ErrorCode::NotFinite, "17");
   FitOptions butterfly;
   butterfly.scheme.kind = SchemeKind::Butterfly;
-  test::expect_error([&] { fit_surface({CloudMaker().sphere(50), Points(0, 3)}, butterfly); }, ErrorCode::BadArgument,
-                     "Butterfly");
+  test::expect_error(
+      [&] {
+        fit_surface({CloudMaker().sphere(50), Points(0, 3)}, butterfly);
+      },
+      ErrorCode::BadArgument, "Butterfly");
 }
 
 /// Cancelled at every moment: either nothing, or the surface of a whole round.

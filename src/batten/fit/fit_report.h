@@ -17,13 +17,13 @@ enum class FitEnd {
 
 /// One round: attach, step.
 struct FitRound {
-  Index vertices = 0;       ///< of the control mesh
-  double fairness = 0.0;    ///< FitStep::fairness
-  double max = 0.0;         ///< the greatest distance from a point to the surface after it, outliers left out
-  double rms = 0.0;         ///< of these distances
-  double objective = 0.0;   ///< SurfaceFitter::objective() before the step
-  double after = 0.0;       ///< and after it
-  int iterations = 0;       ///< of the linear solver
+  Index vertices = 0;      ///< of the control mesh
+  double fairness = 0.0;   ///< FitStep::fairness
+  double max = 0.0;        ///< the greatest distance from a point to the surface after it, outliers left out
+  double rms = 0.0;        ///< of these distances
+  double objective = 0.0;  ///< SurfaceFitter::objective() before the step
+  double after = 0.0;      ///< and after it
+  int iterations = 0;      ///< of the linear solver
   double seconds = 0.0;
 };
 

@@ -16,8 +16,8 @@
 #include "batten/fit/start_sphere.h"
 #include "batten/fit/surface_fitter.h"
 #include "batten/fit/thin_cloud.h"
-#include "batten/nearest/nearest_point.h"
 #include "batten/mesh/checked_values.h"
+#include "batten/nearest/nearest_point.h"
 #include "batten/quantile.h"
 #include "batten/refine/refinement.h"
 #include "batten/surface/quadrature.h"
@@ -42,8 +42,8 @@ void require_options(const PointCloud& cloud, const FitOptions& options) {
   if (!(options.tolerance >= 0.0)) throw Error(ErrorCode::BadArgument, "the tolerance must be 0 or more");
   if (options.rounds < 1) throw Error(ErrorCode::BadArgument, "a fit takes one round or more");
   if (cloud.points.rows() < 4)
-    throw Error(ErrorCode::BadArgument, "a fit needs four points or more; there are " +
-                                            std::to_string(cloud.points.rows()));
+    throw Error(ErrorCode::BadArgument,
+                "a fit needs four points or more; there are " + std::to_string(cloud.points.rows()));
 }
 
 Mesh starting_mesh(const PointCloud& cloud, const FitOptions& options, const Progress& progress) {

@@ -27,10 +27,10 @@ struct FitOptions {
   /// At most so many control points: the mesh is refined as a whole while it has no more. Without: 400, and an
   /// initial mesh is not refined.
   std::optional<Index> vertices;
-  double tolerance = 0.0;      ///< stops when no point is farther away than this
-  std::optional<Index> genus;  ///< demanded of the first mesh
+  double tolerance = 0.0;        ///< stops when no point is farther away than this
+  std::optional<Index> genus;    ///< demanded of the first mesh
   std::optional<double> bridge;  ///< gaps up to this width are closed, wider ones become boundaries (FirstMeshOptions)
-  int rounds = 30;             ///< at most so many for each number of control points
+  int rounds = 30;               ///< at most so many for each number of control points
 };
 
 /// A control mesh and how well its surface fits.

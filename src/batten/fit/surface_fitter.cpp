@@ -292,8 +292,8 @@ Values SurfaceFitter::find_step(const FitStep& options, SolveReport* report) con
   const double unit = level.energy_scale;
   const Fairness fairness{unit * options.fairness, unit * std::max(0.0, options.evenness - options.fairness),
                           level.stiffness, options.damping};
-  Values step = level.equations.solve(parts.control, normals, fairness,
-                                      {options.tolerance, options.max_iterations, {}}, solved);
+  Values step =
+      level.equations.solve(parts.control, normals, fairness, {options.tolerance, options.max_iterations, {}}, solved);
   if (report != nullptr) *report = std::move(solved);
   return step;
 }
