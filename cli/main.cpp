@@ -24,6 +24,7 @@ struct Verbs {
   DistanceArguments distance;
   TextureArguments texture;
   MorphArguments morph;
+  FitArguments fit;
   MedialArguments medial;
   SimulateArguments simulate;
   RepairArguments repair;
@@ -55,6 +56,7 @@ int run(int argc, char** argv) {
   add_bands(app, verbs.bands, status);
   add_morph(app, verbs.morph, status);
   add_simulate(app, verbs.simulate, status);
+  add_fit(app, verbs.fit, status);
   add_medial(app, verbs.medial, status);
   add_repair(app, verbs.repair, status);
   add_info(app, verbs.info, status);

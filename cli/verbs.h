@@ -4,6 +4,7 @@
 
 #include "cli/arguments.h"
 #include "cli/simulate_arguments.h"
+#include "cli/fit_arguments.h"
 
 namespace batten::cli {
 
@@ -19,6 +20,7 @@ void add_bands(CLI::App& app, BandsArguments& arguments, int& status);
 void add_texture(CLI::App& app, TextureArguments& arguments, int& status);
 void add_morph(CLI::App& app, MorphArguments& arguments, int& status);
 void add_simulate(CLI::App& app, SimulateArguments& arguments, int& status);
+void add_fit(CLI::App& app, FitArguments& arguments, int& status);
 void add_medial(CLI::App& app, MedialArguments& arguments, int& status);
 
 }  // namespace batten::cli

@@ -206,6 +206,7 @@ TEST_F(DocsReport, PageNamesEveryEntryOfEveryVerb) {
                                 "bands @tripod.obj --count 3",
                                 "texture @cube.obj --preset wood --levels 1",
                                 "morph @creature.obj @creature-ball.obj --rho 0.5 --frames 3",
+                                "fit @cube.obj --init sphere --vertices 100",
                                 "medial @bean.srep.json",
                                 "medial @fork.json",
                                 "medial @slab.json --normals",

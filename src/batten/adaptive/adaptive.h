@@ -8,16 +8,11 @@
 #include <functional>
 #include <span>
 
+#include "batten/mesh/face_kind.h"
 #include "batten/mesh/mesh.h"
 #include "batten/surface/limit_surface.h"
 
 namespace batten {
-
-/// What the result consists of.
-enum class FaceKind {
-  Quads,  ///< quads only, from bases of triangles too
-  Triangles
-};
 
 /// A face of an adaptive mesh, as AdaptiveOptions::cut sees it. A row of `points` and `normals` a corner.
 struct AdaptiveFace {

@@ -10,6 +10,7 @@
 #include "batten/error.h"
 #include "batten/fit/cloud_boxes.h"
 #include "batten/fit/orientation.h"
+#include "batten/fit/outliers.h"
 #include "batten/mesh/checked_values.h"
 #include "batten/mesh/measures.h"
 #include "batten/mesh/unit_scale.h"
@@ -20,8 +21,6 @@ namespace batten {
 
 namespace {
 
-constexpr Index kCloudNeighbours = 12;
-constexpr Index kSpacingNeighbours = 6;
 constexpr Index kFewestPlaces = 20;
 
 /// Too few points, or all on a line.
@@ -90,44 +89,6 @@ void require_spread(const Points& points) {
   for (Eigen::Index row = 0; row < points.rows(); ++row)
     off = std::max(off, (points.row(row) - first).cross(along).norm());
   if (!(off > 1e-9)) refuse_cloud();
-}
-
-/// The mean distance of the nearest few.
-Scalars spacing_of(const NeighbourTable& neighbours, Index size) {
-  Scalars spacing(size);
-  for (Index row = 0; row < size; ++row) {
-    double sum = 0.0;
-    Index count = 0;
-    for (; count < kSpacingNeighbours && neighbours.point(row, count) >= 0; ++count)
-      sum += neighbours.distance(row, count);
-    spacing(row) = sum / std::max<Index>(count, 1);
-  }
-  return spacing;
-}
-
-double median_neighbour(const Scalars& numbers, const NeighbourTable& neighbours, Index row, std::vector<double>& few) {
-  few.clear();
-  for (Index k = 0; k < neighbours.count && neighbours.point(row, k) >= 0; ++k)
-    few.push_back(numbers(neighbours.point(row, k)));
-  return quantile(few, 0.5);
-}
-
-/// Marks points that are much farther from their neighbours than those are from theirs, and those that are far from
-/// everything and not in one plane with what is around them.
-std::vector<std::uint8_t> without_lonely(const Points& points, const NeighbourTable& neighbours,
-                                         const Scalars& spacing) {
-  constexpr double kRough = 0.06;
-  std::vector<std::uint8_t> kept(static_cast<std::size_t>(spacing.size()), 1);
-  std::vector<double> few(spacing.data(), spacing.data() + spacing.size());
-  const double typical = quantile(few, 0.5);
-  const Scalars roughness = local_planes(points, neighbours).roughness;
-  for (Index row = 0; row < static_cast<Index>(spacing.size()); ++row) {
-    const double near = median_neighbour(spacing, neighbours, row, few);
-    const bool rough = roughness(row) > kRough;
-    const bool alone = spacing(row) > 2.2 * near && (rough || spacing(row) > 4.0 * near);
-    if (alone || (rough && spacing(row) > 2.5 * typical)) kept[row] = 0;
-  }
-  return kept;
 }
 
 void drop_outliers(CloudSamples& samples) {

@@ -4,12 +4,10 @@
 #include <vector>
 
 #include "batten/fit/point_cloud.h"
+#include "batten/mesh/face_kind.h"
 #include "batten/mesh/mesh.h"
 
 namespace batten {
-
-/// The faces of a first mesh.
-enum class FaceKind { Quads, Triangles };
 
 /// How quads are laid.
 enum class QuadPattern {

@@ -1,0 +1,27 @@
+/// \file The options of the verb fit.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "cli/arguments.h"
+
+namespace batten::cli {
+
+/// The words of --init that name no file.
+inline constexpr const char* kInitAuto = "auto";
+inline constexpr const char* kInitSphere = "sphere";
+
+struct FitArguments {
+  CommonArguments common;  ///< input: the points
+  PictureArguments picture;
+  std::string init = kInitAuto;  ///< or kInitSphere, or a mesh file
+  std::optional<Index> vertices;
+  std::optional<Length> tolerance;
+  std::optional<Index> genus;
+  std::optional<Length> bridge;
+  std::string residuals;  ///< the points with their distances
+};
+
+int run_fit(const FitArguments& arguments);
+
+}  // namespace batten::cli

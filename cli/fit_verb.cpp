@@ -1,0 +1,39 @@
+#include "cli/options.h"
+#include "cli/verbs.h"
+
+namespace batten::cli {
+
+void add_fit(CLI::App& app, FitArguments& arguments, int& status) {
+  CLI::App& verb = *app.add_subcommand("fit", "from points to a small, editable subdivision surface");
+  add_input_file(verb, "POINTS", arguments.common.input,
+                 "scan or fine mesh: .xyz .ply .obj .off .stl .glb .gltf, also as .gz, or - for standard input")
+      ->required();
+  add_common(verb, arguments.common);
+  add_output(verb, arguments.common);
+  verb.add_option("--init", arguments.init,
+                  "start from a mesh of the right genus that is found, from a sphere, or from this control mesh, whose "
+                  "faces and vertex order stay; auto")
+      ->type_name("FILE")
+      ->option_text("auto|sphere|FILE");
+  verb.add_option("--vertices", arguments.vertices, "at most so many control points; 400, or those of --init FILE")
+      ->check(whole_number(8));
+  add_length(verb, "--tolerance", arguments.tolerance, "stop when no point is farther from the surface");
+  verb.add_option("--genus", arguments.genus, "how many handles the surface has; found if not given")
+      ->check(whole_number(0));
+  add_length(verb, "--bridge", arguments.bridge,
+             "close holes in the data up to this width; wider ones become boundaries; a fifth of the longest side");
+  add_choice(verb, "--scheme", arguments.common.scheme,
+             Names<SchemeKind>{{"catmull-clark", SchemeKind::CatmullClark}, {"loop", SchemeKind::Loop}},
+             "catmull-clark, or that of --init FILE, if not given");
+  add_output_file(verb, "--residuals", arguments.residuals,
+                  "write the points with their distances, as the property \"distance\"", {".ply"});
+  add_picture(verb, arguments.picture);
+  add_range(verb, arguments.picture);
+  set_run(verb, arguments.common, status, [&] {
+    require_output(verb, {"--picture", "--report", "--residuals"});
+    if (arguments.init != kInitAuto) require_alone(verb, "--init", {"--genus", "--bridge"});
+    return run_fit(arguments);
+  });
+}
+
+}  // namespace batten::cli

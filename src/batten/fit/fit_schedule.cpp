@@ -1,0 +1,62 @@
+#include "batten/fit/fit_schedule.h"
+
+#include <algorithm>
+
+namespace batten {
+
+namespace {
+
+/// Fairness for the square of the distances.
+constexpr double kFairnessOfSquares = 30.0;
+constexpr double kMostFair = 1.0;
+constexpr double kLeastFairness = 1e-14;
+constexpr double kFall = 0.4;
+/// How much more than fairness the evenness of the parameters counts.
+constexpr double kEvenness = 100.0;
+constexpr double kMostEven = 3e-2;
+/// What draws the surface to the points falls with the distances, as parts of the points' spacing.
+constexpr double kPullOfDistance = 1.0;
+constexpr double kPullFall = 0.8;
+/// A round gains where it takes off so much of what was left.
+constexpr double kGain = 0.02;
+/// A finer mesh has sixteen times as little energy for the same shape.
+constexpr double kOfRefined = 4.0;
+
+}  // namespace
+
+FitSchedule::FitSchedule(const FitErrors& errors, double spacing) : best_(errors), spacing_(spacing) {
+  step_.fairness = kMostFair;
+  step_.pull = 1.0;
+  step_.fairness = std::min(kMostFair, std::max(kLeastFairness, kFairnessOfSquares * errors.bulk * errors.bulk));
+  choose(errors);
+}
+
+void FitSchedule::choose(const FitErrors& errors) {
+  const double wanted = kFairnessOfSquares * errors.bulk * errors.bulk;
+  step_.fairness = std::max(kLeastFairness, std::min(step_.fairness, std::max(wanted, kFall * step_.fairness)));
+  step_.evenness = std::max(step_.fairness, std::min(kMostEven, kEvenness * step_.fairness));
+  const double pull = spacing_ > 0.0 ? kPullOfDistance * errors.bulk / spacing_ : 1.0;
+  step_.pull = std::min(step_.pull, std::max(pull, kPullFall * step_.pull));
+}
+
+void FitSchedule::note(const FitErrors& errors) {
+  const bool gains = errors.rms < (1.0 - kGain) * best_.rms || errors.bulk < (1.0 - kGain) * best_.bulk ||
+                     errors.max < (1.0 - kGain) * best_.max;
+  idle_ = gains ? 0 : idle_ + 1;
+  best_.rms = std::min(best_.rms, errors.rms);
+  best_.bulk = std::min(best_.bulk, errors.bulk);
+  best_.max = std::min(best_.max, errors.max);
+  choose(errors);
+}
+
+void FitSchedule::note_outliers(const FitErrors& errors) {
+  best_ = errors;
+  idle_ = 0;
+}
+
+void FitSchedule::note_refined() {
+  step_.fairness *= kOfRefined;
+  idle_ = 0;
+}
+
+}  // namespace batten

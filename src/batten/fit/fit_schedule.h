@@ -1,0 +1,41 @@
+/// \file How a fit goes on from round to round: how fair the surface has to be, and when rounds gain nothing.
+#pragma once
+#include "batten/fit/surface_fitter.h"
+
+namespace batten {
+
+/// How far the points are from the surface, as shares of the diameter; outliers are left out.
+struct FitErrors {
+  double rms = 0.0;
+  double max = 0.0;
+  double bulk = 0.0;  ///< RMS of the nearest 95 %
+};
+
+/// Fairness follows the fit: it counts with the square of the distances that are left, so that noise keeps a surface
+/// smooth and exact data set it free. It falls by no more than so much a round.
+class FitSchedule {
+ public:
+  /// Before the first round. spacing: of the points, as a share of the diameter.
+  FitSchedule(const FitErrors& errors, double spacing);
+
+  const FitStep& step() const { return step_; }
+  /// After a round.
+  void note(const FitErrors& errors);
+  /// After the mesh was refined: a finer mesh bends more easily for the same fairness.
+  void note_refined();
+  /// After other points became outliers: what was reached before counts no longer.
+  void note_outliers(const FitErrors& errors);
+  /// True where the last rounds have gained too little.
+  bool is_stuck() const { return idle_ >= kIdle; }
+
+ private:
+  static constexpr int kIdle = 3;
+  void choose(const FitErrors& errors);
+
+  FitStep step_;
+  FitErrors best_;
+  double spacing_;
+  int idle_ = 0;
+};
+
+}  // namespace batten

@@ -1,0 +1,336 @@
+#include "batten/fit/fit_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "batten/error.h"
+#include "batten/fit/enclosing_sphere.h"
+#include "batten/fit/first_mesh.h"
+#include "batten/fit/fit_schedule.h"
+#include "batten/fit/outliers.h"
+#include "batten/fit/point_tree.h"
+#include "batten/fit/start_sphere.h"
+#include "batten/fit/surface_fitter.h"
+#include "batten/fit/thin_cloud.h"
+#include "batten/mesh/checked_values.h"
+#include "batten/nearest/nearest_point.h"
+#include "batten/quantile.h"
+#include "batten/refine/refinement.h"
+#include "batten/surface/quadrature.h"
+
+namespace batten {
+
+namespace {
+
+constexpr Index kUsualVertices = 400;
+/// In the end a point counts with this power of its distance.
+constexpr double kWorstPower = 2.0;
+
+void require_options(const PointCloud& cloud, const FitOptions& options) {
+  require_finite(cloud.points, "points");
+  if (cloud.normals.rows() != 0 && cloud.normals.rows() != cloud.points.rows())
+    throw Error(ErrorCode::BadShape, "there are " + std::to_string(cloud.normals.rows()) + " normals for " +
+                                         std::to_string(cloud.points.rows()) + " points");
+  require_finite(cloud.normals, "normals");
+  if (is_interpolating(options.scheme.kind))
+    throw Error(ErrorCode::BadArgument, std::string("a fit has Catmull-Clark or Loop surfaces, none of the ") +
+                                            scheme_name(options.scheme.kind) + " scheme");
+  if (!(options.tolerance >= 0.0)) throw Error(ErrorCode::BadArgument, "the tolerance must be 0 or more");
+  if (options.rounds < 1) throw Error(ErrorCode::BadArgument, "a fit takes one round or more");
+  if (cloud.points.rows() < 4)
+    throw Error(ErrorCode::BadArgument,
+                "a fit needs four points or more; there are " + std::to_string(cloud.points.rows()));
+}
+
+Mesh starting_mesh(const PointCloud& cloud, const FitOptions& options, const Progress& progress) {
+  if (options.initial) return *options.initial;
+  if (options.start == FitStart::Sphere) return start_sphere(cloud.points, options.scheme.kind);
+  constexpr Index kLeast = 50;
+  constexpr Eigen::Index kOfFirstVertex = 4;
+  FirstMeshOptions first;
+  first.faces = options.scheme.kind == SchemeKind::Loop ? FaceKind::Triangles : FaceKind::Quads;
+  const Index vertices = options.vertices.value_or(kUsualVertices);
+  // A mesh with a vertex for every few points would take their unevenness for shape: refine later.
+  const bool dense = cloud.points.rows() >= kOfFirstVertex * static_cast<Eigen::Index>(vertices);
+  first.vertices = std::max(kLeast, dense ? vertices : vertices / 4);
+  first.genus = options.genus;
+  first.bridge = options.bridge;
+  return first_mesh(cloud, first, progress).mesh;
+}
+
+/// Shares of the diameter.
+FitErrors errors_of(Buffer<double> distances, double diameter) {
+  constexpr double kBulk = 0.95;
+  FitErrors errors;
+  if (distances.empty()) return errors;
+  const double cut = quantile(distances, kBulk);
+  double squares = 0.0;
+  double of_bulk = 0.0;
+  double bulk = 0.0;
+  for (const double distance : distances) {
+    squares += distance * distance;
+    errors.max = std::max(errors.max, distance / diameter);
+    if (distance > cut) continue;
+    of_bulk += distance * distance;
+    bulk += 1.0;
+  }
+  errors.rms = std::sqrt(squares / static_cast<double>(distances.size())) / diameter;
+  errors.bulk = std::sqrt(of_bulk / bulk) / diameter;
+  return errors;
+}
+
+/// The points that the rounds work with, with normals.
+PointCloud working_cloud(const PointCloud& cloud, const FitOptions& options, const Progress& progress) {
+  constexpr Index kLeast = 10000;
+  constexpr Index kOfVertex = 12;
+  const Index start = options.initial ? options.initial->vertex_count() : 0;
+  const Index vertices = std::max(start, options.vertices.value_or(kUsualVertices));
+  const Index most = std::max(kLeast, kOfVertex * std::min(vertices, std::numeric_limits<Index>::max() / kOfVertex));
+  const Buffer<Index> rows = thinned_rows(cloud.points, most);
+  PointCloud working;
+  working.points = cloud.points(rows, Eigen::all);
+  working.normals = cloud.normals.rows() > 0 ? Points(cloud.normals(rows, Eigen::all))
+                                             : estimate_normals(working.points, {}, progress);
+  return working;
+}
+
+/// How many control points one refinement makes.
+double refined_count(const Topology& topology, SchemeKind kind) {
+  const double faces = kind == SchemeKind::CatmullClark ? topology.face_count() : 0.0;
+  return static_cast<double>(topology.vertex_count()) + topology.edge_count() + faces;
+}
+
+/// The rounds of one fit.
+class FitRun {
+ public:
+  FitRun(SurfaceFitter& fitter, const FitOptions& options, FitReport& report, const OutlierFilter& filter)
+      : fitter_(fitter),
+        options_(options),
+        report_(report),
+        filter_(filter),
+        outliers_(filter.lonely()),
+        schedule_(measured(), filter.spacing() / report.diameter) {
+    set_weights(0.0);
+  }
+
+  /// All rounds and refinements.
+  void go(const Progress& progress) {
+    const Index most = options_.vertices.value_or(options_.initial ? 0 : kUsualVertices);
+    while (true) {
+      const bool last = refined_count(fitter_.topology(), fitter_.scheme().kind) > most;
+      go_level(progress);
+      if (last && report_.end == FitEnd::Budget) lower_worst(progress);
+      if (last || report_.end == FitEnd::Tolerance) return;
+      fitter_.refine();
+      fitter_.attach(progress);
+      judged_ = 0;
+      schedule_.note_refined();
+    }
+  }
+
+  const Buffer<std::uint8_t>& outliers() const { return outliers_; }
+
+ private:
+  FitErrors measured() const {
+    Buffer<double> distances;
+    for (std::size_t i = 0; i < outliers_.size(); ++i) {
+      if (outliers_[i] == 0) distances.push_back(fitter_.distances()[static_cast<Eigen::Index>(i)]);
+    }
+    return errors_of(std::move(distances), report_.diameter);
+  }
+
+  bool reached(const FitErrors& errors) {
+    if (!(options_.tolerance > 0.0) || !(errors.max * report_.diameter <= options_.tolerance)) return false;
+    report_.end = FitEnd::Tolerance;
+    return true;
+  }
+
+  void go_level(const Progress& progress) {
+    report_.end = FitEnd::Rounds;
+    for (int round = 0; round < options_.rounds; ++round) {
+      report_progress(progress, static_cast<double>(round) / options_.rounds);
+      go_round();
+      const FitErrors errors = measured();
+      schedule_.note(errors);
+      if (reached(errors)) return;
+      if (!schedule_.is_stuck()) continue;
+      if (leave_out_far()) continue;
+      report_.end = FitEnd::Budget;
+      return;
+    }
+  }
+
+  /// Judges anew which points are outliers; true where that changes.
+  bool leave_out_far() {
+    Buffer<std::uint8_t> flags = filter_.lonely();
+    filter_.add_far(fitter_.distances(), flags);
+    if (judged_ == kJudgements || flags == outliers_) return false;
+    ++judged_;
+    outliers_ = std::move(flags);
+    set_weights(0.0);
+    schedule_.note_outliers(measured());
+    return true;
+  }
+
+  /// Points count the more the farther away they are; of all rounds the surface with the least maximum is kept whose
+  /// RMS has not grown too much.
+  void lower_worst(const Progress& progress) {
+    // Where points are many, one alone is rarely far away, and rounds are long.
+    constexpr Eigen::Index kPointsInAll = 60000;
+    const auto rounds = static_cast<int>(std::clamp<Eigen::Index>(kPointsInAll / fitter_.distances().size(), 4, 24));
+    constexpr double kExact = 1e-10;
+    constexpr double kMostGrowth = 1.1;
+    FitErrors best = measured();
+    if (best.rms < kExact) return;
+    const double most = kMostGrowth * best.rms;
+    Values kept = fitter_.control();
+    for (int round = 0; round < rounds; ++round) {
+      report_progress(progress, static_cast<double>(round) / rounds);
+      set_weights(kWorstPower);
+      go_round();
+      const FitErrors errors = measured();
+      if (!(errors.max < best.max) || errors.rms > most) continue;
+      best = errors;
+      kept = fitter_.control();
+      if (reached(errors)) break;
+    }
+    fitter_.move_to(kept);
+    fitter_.attach(progress);
+  }
+
+  /// Outliers count nothing, others by a power of their distance; half of it is what they counted before.
+  void set_weights(double power) {
+    constexpr double kMost = 100.0;
+    const double rms = measured().rms * report_.diameter;
+    Scalars weights = fitter_.weights();
+    for (Eigen::Index i = 0; i < weights.size(); ++i) {
+      const double share = rms > 0.0 ? fitter_.distances()[i] / rms : 1.0;
+      const double wanted = power > 0.0 ? std::min(kMost, 0.5 + 0.5 * std::pow(share, power)) : 1.0;
+      weights[i] = outliers_[static_cast<std::size_t>(i)] != 0 ? 0.0
+                   : power > 0.0                               ? 0.5 * (weights[i] + wanted)
+                                                               : wanted;
+    }
+    fitter_.set_weights(std::move(weights));
+  }
+
+  /// Moves by a step, or by a part of it that lowers the objective.
+  void go_round() {
+    constexpr int kHalvings = 3;
+    const Stopwatch watch;
+    FitRound round;
+    const FitStep& step = schedule_.step();
+    const Values before = fitter_.control();
+    SolveReport solved;
+    Values move = fitter_.find_step(step, &solved);
+    round.objective = fitter_.objective(step.fairness);
+    for (int halving = 0; halving <= kHalvings; ++halving) {
+      if (halving == kHalvings) move.setZero();
+      fitter_.move_to(fitter_.stepped(before, move));
+      fitter_.attach();
+      round.after = fitter_.objective(step.fairness);
+      if (round.after <= round.objective) break;
+      move *= 0.5;
+    }
+    const FitErrors errors = measured();
+    round.vertices = fitter_.topology().vertex_count();
+    round.fairness = step.fairness;
+    round.max = errors.max * report_.diameter;
+    round.rms = errors.rms * report_.diameter;
+    round.iterations = solved.iterations;
+    round.seconds = watch.seconds();
+    report_.rounds.push_back(round);
+  }
+
+  SurfaceFitter& fitter_;
+  const FitOptions& options_;
+  FitReport& report_;
+  const OutlierFilter& filter_;
+  Buffer<std::uint8_t> outliers_;
+  FitSchedule schedule_;
+  static constexpr int kJudgements = 3;
+  int judged_ = 0;  ///< how often outliers were sought for the present control mesh
+};
+
+/// From places spread over the surface to the nearest points.
+DistanceSummary measure_to_points(const SurfaceFitter& fitter) {
+  constexpr int kPlaces = 4;
+  const LimitSurface surface(fitter.topology(), fitter.scheme(), fitter.control());
+  const SurfaceQuadrature quadrature = surface_quadrature(surface.patches(), {kPlaces, 0});
+  std::vector<Jet> jets(quadrature.places.size());
+  surface.jets(quadrature.places, jets);
+  const PointTree tree(fitter.cloud().points);
+  Scalars distances(static_cast<Eigen::Index>(jets.size()));
+  for (std::size_t i = 0; i < jets.size(); ++i)
+    distances[static_cast<Eigen::Index>(i)] = tree.distance(jets[i].point.transpose());
+  return summarize_distances(distances);
+}
+
+/// Of all points to the surface.
+Scalars measure_to_surface(const SurfaceFitter& fitter, const Points& points) {
+  if (points.rows() == fitter.cloud().points.rows()) return fitter.distances();
+  const NearestPoints nearest(fitter.topology(), fitter.scheme(), fitter.control());
+  std::vector<NearestPoint> found(static_cast<std::size_t>(points.rows()));
+  nearest.nearest(points, found);
+  Scalars distances(points.rows());
+  for (std::size_t i = 0; i < found.size(); ++i) distances[static_cast<Eigen::Index>(i)] = found[i].distance;
+  return distances;
+}
+
+/// Of the points that are no outliers.
+DistanceSummary summarize_followed(const Scalars& distances, const Buffer<std::uint8_t>& outliers, Index& left_out) {
+  std::vector<Index> followed;
+  for (Index i = 0; i < static_cast<Index>(outliers.size()); ++i) {
+    if (outliers[i] == 0) followed.push_back(i);
+  }
+  left_out = static_cast<Index>(outliers.size() - followed.size());
+  DistanceSummary summary = summarize_distances(distances(followed));
+  summary.max_point = followed[static_cast<std::size_t>(summary.max_point)];
+  return summary;
+}
+
+}  // namespace
+
+FitResult fit_surface(const PointCloud& cloud, const FitOptions& options, const Progress& progress) {
+  const Stopwatch watch;
+  require_options(cloud, options);
+  FitReport report;
+  report.diameter = 2.0 * enclosing_sphere(cloud.points).radius;
+  if (!(report.diameter > 0.0)) throw Error(ErrorCode::BadArgument, "all points are at the same place");
+  const Progress preparing = progress_within(progress, 0.0, 0.2);
+  const PointCloud known = working_cloud(cloud, options, preparing);
+  const Mesh start = starting_mesh(known, options, preparing);
+  SurfaceFitter fitter(Topology(start), options.scheme, start.points, known, preparing);
+  fitter.attach(preparing);
+  const OutlierFilter filter(known.points, preparing);
+  FitRun run(fitter, options, report, filter);
+  const Progress rounds = progress_within(progress, 0.2, 1.0);
+  try {
+    run.go(rounds);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::Cancelled || report.rounds.empty()) throw;
+    report.end = FitEnd::Cancelled;
+    fitter.attach();
+  }
+  Scalars distances = measure_to_surface(fitter, cloud.points);
+  const bool thinned = known.points.rows() < cloud.points.rows();
+  const OutlierFilter whole = thinned ? OutlierFilter(cloud.points) : filter;
+  Buffer<std::uint8_t> outliers = run.outliers();
+  if (thinned) {
+    outliers = whole.lonely();
+    whole.add_far(distances, outliers);
+  }
+  report.spacing = whole.spacing();
+  report.to_surface = summarize_followed(distances, outliers, report.outliers);
+  report.to_points = measure_to_points(fitter);
+  report.seconds = watch.seconds();
+  Mesh mesh = mesh_from_topology(fitter.topology());
+  mesh.points = fitter.control();
+  state_scheme(fitter.scheme(), mesh);
+  return {std::move(mesh), fitter.topology(), fitter.scheme(), std::move(distances), std::move(report)};
+}
+
+}  // namespace batten

@@ -1,0 +1,54 @@
+/// \file From points to a small, editable subdivision surface.
+#pragma once
+#include <optional>
+
+#include "batten/fit/fit_report.h"
+#include "batten/fit/point_cloud.h"
+#include "batten/mesh/mesh.h"
+#include "batten/mesh/topology.h"
+#include "batten/progress.h"
+#include "batten/scheme/scheme.h"
+
+namespace batten {
+
+/// What a fit starts from where no control mesh is given.
+enum class FitStart {
+  Auto,   ///< a mesh of the right genus over the points (fit/first_mesh.h)
+  Sphere  ///< an ellipsoid around the points (fit/start_sphere.h)
+};
+
+/// Options of fit_surface(). Lengths are in the unit of the points.
+struct FitOptions {
+  Scheme scheme;  ///< Catmull-Clark or Loop
+  FitStart start = FitStart::Auto;
+  /// The control mesh to start from instead, with its tags; its scheme must fit. Vertex i of it is vertex i of the
+  /// result.
+  std::optional<Mesh> initial;
+  /// At most so many control points: the mesh is refined as a whole while it has no more. Without: 400, and an
+  /// initial mesh is not refined.
+  std::optional<Index> vertices;
+  double tolerance = 0.0;        ///< stops when no point is farther away than this
+  std::optional<Index> genus;    ///< demanded of the first mesh
+  std::optional<double> bridge;  ///< gaps up to this width are closed, wider ones become boundaries (FirstMeshOptions)
+  int rounds = 30;               ///< at most so many for each number of control points
+};
+
+/// A control mesh and how well its surface fits.
+struct FitResult {
+  Mesh mesh;  ///< with its scheme stated
+  Topology topology;
+  Scheme scheme;
+  Scalars distances;  ///< from each point to the surface
+  FitReport report;
+};
+
+/// Fits a surface to the points. Attach each point to its nearest place on the surface, move the control points so that
+/// a weighted sum of squared distances and of fairness is least, and again (fit/surface_fitter.h); fairness falls with
+/// the distances; when nothing is gained, refine. The points' normals are estimated where there are none. The result
+/// depends on the input alone. When the callback asks to stop after the first round, the surface of the last whole
+/// round is returned.
+/// Throws Error: BadShape, NotFinite, BadArgument (no points, all at one place or on a line; options out of range),
+/// NotTriangles, Cancelled (before the first round), and what first_mesh() throws.
+FitResult fit_surface(const PointCloud& cloud, const FitOptions& options = {}, const Progress& progress = {});
+
+}  // namespace batten

@@ -1,0 +1,46 @@
+/// \file Points that a surface shall not follow.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "batten/buffer.h"
+#include "batten/fit/point_tree.h"
+
+namespace batten {
+
+/// The neighbours that the functions below judge a point by.
+inline constexpr Index kCloudNeighbours = 12;
+
+/// The mean distance of each point's nearest few.
+Scalars spacing_of(const NeighbourTable& neighbours, Index size);
+
+/// One flag a point, 0 for those that are much farther from their neighbours than those are from theirs, and those that
+/// are far from everything and not in one plane with what is around them. Others may become lonely once they are gone.
+std::vector<std::uint8_t> without_lonely(const Points& points, const NeighbourTable& neighbours,
+                                         const Scalars& spacing);
+
+/// Judges points by their neighbours, built once for a cloud. Memory: 200 bytes a point.
+class OutlierFilter {
+ public:
+  /// O(N log N).
+  explicit OutlierFilter(const Points& points, const Progress& progress = {});
+
+  /// The median distance between neighbouring points.
+  double spacing() const { return spacing_; }
+
+  /// One flag a point, 1 for those that without_lonely() leaves out, three times over.
+  const Buffer<std::uint8_t>& lonely() const { return lonely_; }
+
+  /// Adds those whose distance from a surface is eight times the median of their neighbours', and above one and a half
+  /// spacings: a part of the shape that the surface has not reached is far as a whole. Lonely neighbours do not count.
+  void add_far(const Scalars& distances, Buffer<std::uint8_t>& flags) const;
+
+ private:
+  void find_lonely(const Points& points);
+
+  NeighbourTable neighbours_;
+  Buffer<std::uint8_t> lonely_;
+  double spacing_ = 0.0;
+};
+
+}  // namespace batten

@@ -1,0 +1,51 @@
+#include "batten/fit/start_sphere.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include "batten/mesh/primitives.h"
+#include "batten/mesh/topology.h"
+#include "batten/refine/refinement.h"
+
+namespace batten {
+
+namespace {
+
+/// Of the longest half axis.
+constexpr double kLeastAxis = 0.01;
+
+/// The principal axes of points around their mean, in columns, right-handed.
+Eigen::Matrix3d principal_axes(ConstValuesRef points) {
+  const Eigen::RowVector3d mean = points.colwise().mean();
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const Eigen::RowVector3d offset = points.row(i) - mean;
+    spread += offset.transpose() * offset;
+  }
+  Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors();
+  if (axes.determinant() < 0.0) axes.col(0) *= -1.0;
+  return axes;
+}
+
+}  // namespace
+
+Mesh start_sphere(ConstValuesRef points, SchemeKind kind) {
+  Scheme scheme;
+  scheme.kind = kind;
+  const Mesh solid = kind == SchemeKind::CatmullClark ? cube() : octahedron();
+  const RefinedSurface refined = refine(Topology(solid), scheme, solid.points, 2);
+  Points directions = refined.values;
+  directions.rowwise().normalize();
+  const Eigen::Matrix3d axes = principal_axes(points);
+  const Points along = points * axes;
+  const Eigen::RowVector3d low = along.colwise().minCoeff();
+  const Eigen::RowVector3d high = along.colwise().maxCoeff();
+  Eigen::RowVector3d half = 0.5 * (high - low);
+  half = half.cwiseMax(kLeastAxis * half.maxCoeff());
+  Mesh mesh = mesh_from_topology(refined.topology);
+  const Points placed = directions * half.asDiagonal();
+  mesh.points = (placed.rowwise() + 0.5 * (low + high)) * axes.transpose();
+  return mesh;
+}
+
+}  // namespace batten

@@ -1,0 +1,78 @@
+/// \file A surface that is drawn to a cloud of points, step by step.
+#pragma once
+#include <memory>
+#include <span>
+
+#include "batten/fit/point_cloud.h"
+#include "batten/mesh/topology.h"
+#include "batten/nearest/nearest_point.h"
+#include "batten/progress.h"
+#include "batten/scheme/scheme.h"
+#include "batten/solve/solver.h"
+
+namespace batten {
+
+/// How a step weighs what it makes least.
+struct FitStep {
+  /// What the energy of the whole surface counts beside the mean squared distance; the same number means about the same
+  /// for any number of control points and any unit.
+  double fairness = 1e-3;
+  double evenness = 1e-2;  ///< the same for moves along the surface, which keeps the parameters even
+  /// What places of the surface, drawn to the nearest points of the data, count beside points drawn to the surface.
+  double pull = 1.0;
+  double damping = 1e-4;    ///< holds control points where they are, as a share of what points pull them
+  double tolerance = 1e-3;  ///< of the linear system, relative
+  int max_iterations = 200;
+};
+
+/// Attach, step, attach, ... (docs/fit.md). A step makes the sum of weighted models of squared distances
+/// (fit/squared_distance_model.h) and the thin-plate energy least (Cheng, Wang, Qin and others 2007, key CWQ07). Every
+/// state between two calls is a whole surface. One thread changes it.
+class SurfaceFitter {
+ public:
+  /// control: V-by-3, the start. cloud: the data, with normals, kept as a copy. Throws Error(NotTriangles, BadArgument
+  /// for the Butterflies, BadShape, NotFinite, TooLarge, Cancelled).
+  SurfaceFitter(const Topology& topology, const Scheme& scheme, ConstValuesRef control, PointCloud cloud,
+                const Progress& progress = {});
+  ~SurfaceFitter();
+  SurfaceFitter(SurfaceFitter&&) noexcept;
+
+  const Topology& topology() const;
+  const Scheme& scheme() const;
+  const Values& control() const;
+  const PointCloud& cloud() const;
+
+  /// Finds the nearest point of the surface for each point of the data. A step needs it first.
+  void attach(const Progress& progress = {});
+  /// Of the last attach(), a place a point.
+  std::span<const NearestPoint> attached() const;
+  /// Of the last attach(): from each point to the surface.
+  const Scalars& distances() const;
+
+  /// The median distance between neighbouring points of the data.
+  double spacing() const;
+
+  /// One a point, not negative; all 1 at first.
+  void set_weights(Scalars weights);
+  const Scalars& weights() const;
+
+  /// The weighted mean of the squared distances of the last attach(), plus the fairness.
+  double objective(double fairness) const;
+
+  /// How the control points should move; nothing moves yet.
+  Values find_step(const FitStep& options, SolveReport* report = nullptr) const;
+  /// Moves the surface. Attachments are then those of the surface before, until attach() is called.
+  void move_to(const Values& control);
+
+  /// The control points after a step, where control points whose faces would fold over go a shorter way.
+  Values stepped(const Values& control, const Values& step);
+
+  /// Refines the control mesh; the surface stays where it is.
+  void refine();
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace batten

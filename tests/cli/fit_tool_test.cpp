@@ -1,0 +1,61 @@
+/// The verb fit: from points to a control mesh, a table and a report.
+#include <nlohmann/json.hpp>
+
+#include "batten/io/io.h"
+#include "batten/mesh/primitives.h"
+#include "batten/mesh/topology.h"
+#include "batten/nearest/surface_distances.h"
+#include "batten/refine/refinement.h"
+#include "batten/tessellate/surface_mesh.h"
+#include "cli/tool.h"
+
+namespace batten::cli_tests {
+namespace {
+
+using FitTool = Tool;
+
+/// The points of a torus's surface, as a file without faces.
+Mesh torus_points() {
+  const Mesh control = torus(16, 8);
+  Mesh points;
+  points.points = surface_mesh(Topology(control), Scheme(), control, 2).points;
+  return points;
+}
+
+TEST_F(FitTool, WritesASurfaceAsNearAsTheReportSays) {
+  write_mesh(path("points.xyz"), torus_points());
+  const Outcome result =
+      run("fit " + path("points.xyz") + " --vertices 150 -o a.obj --residuals r.ply --report r.json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Mesh written = read_mesh(path("a.obj"));
+  const Topology topology(written);
+  EXPECT_LE(topology.vertex_count(), 150);
+  EXPECT_EQ(topology.vertex_count() - topology.edge_count() + topology.face_count(), 0) << "a torus";
+  const SurfaceDistances measured =
+      measure_distances(topology, choose_scheme(written), written.points, torus_points().points);
+  const auto report = nlohmann::json::parse(text_of(path("r.json")));
+  EXPECT_NEAR(measured.distances.cwiseAbs().maxCoeff(), report.at("points_to_surface").at("max"), 1e-9);
+  EXPECT_EQ(report.at("outliers"), 0);
+  const Mesh residuals = read_mesh(path("r.ply"));
+  ASSERT_EQ(residuals.attributes.size(), 1U);
+  EXPECT_LT((residuals.attributes[0].values - measured.distances.cwiseAbs()).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST_F(FitTool, MovesACageAndKeepsItsFaces) {
+  const Outcome result = run("fit " + kModels + "creature-horn.obj --init " + kModels + "creature.obj -o a.obj");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(read_mesh(path("a.obj")).face_vertices, read_mesh(kModels + "creature.obj").face_vertices);
+  EXPECT_NE(result.out.find("602 vertices, 600 faces"), std::string::npos) << result.out;
+}
+
+TEST_F(FitTool, RefusesWhatMakesNoSense) {
+  write_mesh(path("points.xyz"), torus_points());
+  EXPECT_EQ(run("fit " + path("points.xyz")).status, 2) << "nothing to write";
+  EXPECT_EQ(run("fit " + path("points.xyz") + " --init sphere --genus 1 -o a.obj").status, 2);
+  const Outcome missing = run("fit " + path("points.xyz") + " --init nowhere.obj -o a.obj");
+  EXPECT_EQ(missing.status, 1);
+  EXPECT_NE(missing.err.find("nowhere.obj"), std::string::npos) << missing.err;
+}
+
+}  // namespace
+}  // namespace batten::cli_tests

@@ -1,0 +1,195 @@
+#include "batten/fit/fit_surface.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include "batten/mesh/primitives.h"
+#include "batten/refine/refinement.h"
+#include "batten/surface/limit_surface.h"
+#include "batten/tessellate/surface_mesh.h"
+#include "fit/clouds.h"
+#include "support/errors.h"
+#include "support/shapes.h"
+
+namespace batten {
+namespace {
+
+using test::CloudMaker;
+
+/// Places spread over the faces of a mesh's own surface, `side` by `side` a face.
+PointCloud exact_samples(const Mesh& mesh, const Scheme& scheme, int side) {
+  const LimitSurface surface(Topology(mesh), scheme, mesh.points);
+  const Index faces = surface.base().face_count();
+  PointCloud cloud;
+  cloud.points.resize(faces * side * side, 3);
+  cloud.normals.resize(cloud.points.rows(), 3);
+  Index row = 0;
+  for (Index f = 0; f < faces; ++f) {
+    for (int i = 0; i < side * side; ++i, ++row) {
+      const Jet jet = surface.jet({f, (i % side + 0.5) / side, (i / side + 0.5) / side});
+      cloud.points.row(row) = jet.point.transpose();
+      cloud.normals.row(row) = jet.du.cross(jet.dv).normalized().transpose();
+    }
+  }
+  return cloud;
+}
+
+FitOptions quick(Index vertices) {
+  FitOptions options;
+  options.vertices = vertices;
+  return options;
+}
+
+/// The greatest distance of a fine mesh of the surface's points from the unit sphere.
+double off_sphere(const FitResult& fit) {
+  const Mesh fine = surface_mesh(fit.topology, fit.scheme, fit.mesh, 3);
+  return (fine.points.rowwise().norm().array() - 1.0).abs().maxCoeff();
+}
+
+/// Exact samples leave nothing to trade against: fairness falls with the square of what is left.
+TEST(FitSurface, FindsAKnownSurfaceAgainFromItsMovedMesh) {
+  const Mesh known = torus(10, 6);
+  FitOptions options;
+  options.initial = test::jittered(known, 0.02, 3);
+  options.rounds = 60;
+  const FitResult fit = fit_surface(exact_samples(known, Scheme(), 4), options);
+  EXPECT_LT(fit.report.to_surface.max, 1e-6 * fit.report.diameter);
+  EXPECT_EQ(fit.mesh.face_vertices, known.face_vertices) << "the initial mesh keeps its faces and their order";
+}
+
+TEST(FitSurface, FitsASphereOfPoints) {
+  PointCloud cloud;
+  cloud.points = CloudMaker().sphere(1500);
+  FitOptions options = quick(100);
+  options.start = FitStart::Sphere;
+  const FitResult fit = fit_surface(cloud, options);
+  EXPECT_EQ(fit.topology.vertex_count(), 98);
+  EXPECT_LT(off_sphere(fit), 2e-3);
+  EXPECT_NEAR(fit.report.diameter, 2.0, 1e-2) << "random points leave gaps";
+}
+
+TEST(FitSurface, FindsTheHandleOfATorus) {
+  for (const SchemeKind kind : {SchemeKind::CatmullClark, SchemeKind::Loop}) {
+    FitOptions options = quick(150);
+    options.scheme.kind = kind;
+    const FitResult fit = fit_surface({CloudMaker().torus(1500), Points(0, 3)}, options);
+    const Topology& made = fit.topology;
+    EXPECT_EQ(made.vertex_count() - made.edge_count() + made.face_count(), 0);
+    EXPECT_LE(made.vertex_count(), 150);
+    EXPECT_LT(fit.report.to_surface.rms, 2e-3 * fit.report.diameter);
+  }
+}
+
+TEST(FitSurface, ReportsDistancesOfTheSurfaceThatItReturns) {
+  const PointCloud cloud{CloudMaker().torus(800), Points(0, 3)};
+  const FitResult fit = fit_surface(cloud, quick(100));
+  const Mesh fine = surface_mesh(fit.topology, fit.scheme, fit.mesh, 5);
+  double greatest = 0.0;
+  for (Eigen::Index i = 0; i < cloud.points.rows(); ++i) {
+    const double brute = std::sqrt((fine.points.rowwise() - cloud.points.row(i)).rowwise().squaredNorm().minCoeff());
+    EXPECT_LE(fit.distances[i], brute + 1e-12) << "vertices of a tessellation are on the surface";
+    greatest = std::max(greatest, brute);
+  }
+  EXPECT_NEAR(fit.report.to_surface.max, greatest, 0.015) << "half the diagonal of the tessellation's faces";
+}
+
+TEST(FitSurface, NeverRaisesTheObjectiveWithinARound) {
+  const FitResult fit = fit_surface({CloudMaker().torus(800), Points(0, 3)}, quick(100));
+  ASSERT_FALSE(fit.report.rounds.empty());
+  for (const FitRound& round : fit.report.rounds) EXPECT_LE(round.after, round.objective * (1.0 + 1e-12));
+}
+
+/// What differs is the order of sums.
+TEST(FitSurface, DoesNotDependOnTheOrderOfPoints) {
+  const Points points = CloudMaker().torus(600);
+  const FitResult one = fit_surface({points, Points(0, 3)}, quick(100));
+  const FitResult other = fit_surface({CloudMaker(7).shuffled(points), Points(0, 3)}, quick(100));
+  ASSERT_EQ(one.mesh.points.rows(), other.mesh.points.rows());
+  EXPECT_NEAR(one.report.to_surface.rms, other.report.to_surface.rms, 1e-3 * one.report.to_surface.rms);
+}
+
+/// Turned, moved and 1000 times as large: the same surface so. A start of one's own keeps grids out of it.
+TEST(FitSurface, FollowsMotionAndScale) {
+  const Mesh known = torus(8, 5);
+  const PointCloud cloud = exact_samples(known, Scheme(), 3);
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, 2.0, 3.0).normalized()).matrix();
+  const auto moved = [&](const Points& points) -> Points {
+    return ((1000.0 * points * turn.transpose()).rowwise() + Eigen::RowVector3d(30.0, -20.0, 10.0));
+  };
+  FitOptions options;
+  options.initial = test::jittered(known, 0.05, 3);
+  options.rounds = 6;
+  const FitResult one = fit_surface(cloud, options);
+  options.initial->points = moved(options.initial->points);
+  const FitResult other = fit_surface({moved(cloud.points), cloud.normals * turn.transpose()}, options);
+  EXPECT_LT((moved(one.mesh.points) - other.mesh.points).cwiseAbs().maxCoeff(), 1e-8 * other.report.diameter)
+      << "conjugate gradients stop at other roundings";
+}
+
+/// The points of a sphere and one in ten anywhere in its box.
+TEST(FitSurface, DoesNotFollowOutliers) {
+  const Points clean = CloudMaker().sphere(1500);
+  FitOptions options = quick(100);
+  options.start = FitStart::Sphere;
+  const FitResult fit = fit_surface({CloudMaker(5).with_outliers(clean, 0.1), Points(0, 3)}, options);
+  EXPECT_GT(fit.report.outliers, 60) << "many of the 150 are far from the sphere";
+  EXPECT_LT(fit.distances.head(clean.rows()).norm() / std::sqrt(1500.0), 0.01);
+}
+
+TEST(FitSurface, StopsAtTheTolerance) {
+  FitOptions options = quick(2000);
+  options.start = FitStart::Sphere;
+  options.tolerance = 0.05;
+  const FitResult fit = fit_surface({CloudMaker().sphere(500), Points(0, 3)}, options);
+  EXPECT_EQ(fit.report.end, FitEnd::Tolerance);
+  EXPECT_LE(fit.report.to_surface.max, 0.05);
+  EXPECT_EQ(fit.topology.vertex_count(), 98) << "more control points were not needed";
+}
+
+TEST(FitSurface, RefusesCloudsThatNoSurfaceFits) {
+  const auto fit = [](const Points& points) { fit_surface({points, Points(0, 3)}); };
+  for (const Index count : {0, 1, 3})
+    test::expect_error([&] { fit(CloudMaker().sphere(count)); }, ErrorCode::BadArgument, "four points");
+  test::expect_error([&] { fit(Points::Ones(50, 3)); }, ErrorCode::BadArgument, "same place");
+  Points line = Points::Zero(50, 3);
+  for (Index i = 0; i < 50; ++i) line.row(i) = i * Eigen::RowVector3d(1.0, 2.0, 3.0);
+  test::expect_error([&] { fit(line); }, ErrorCode::BadArgument, "line");
+  Points hurt = CloudMaker().sphere(50);
+  hurt(17, 1) = std::numeric_limits<double>::quiet_NaN();
+  test::expect_error([&] { fit(hurt); }, ErrorCode::NotFinite, "17");
+  FitOptions butterfly;
+  butterfly.scheme.kind = SchemeKind::Butterfly;
+  test::expect_error(
+      [&] {
+        fit_surface({CloudMaker().sphere(50), Points(0, 3)}, butterfly);
+      },
+      ErrorCode::BadArgument, "Butterfly");
+}
+
+/// Cancelled at every moment: either nothing, or the surface of a whole round.
+TEST(FitSurface, KeepsTheLastWholeRoundWhenCancelled) {
+  const PointCloud cloud{CloudMaker().sphere(300), Points(0, 3)};
+  FitOptions options = quick(100);
+  options.start = FitStart::Sphere;
+  bool kept = false;
+  for (int most = 0; most < 40; most += 3) {
+    int calls = 0;
+    try {
+      const FitResult fit = fit_surface(cloud, options, [&](double) { return ++calls <= most; });
+      if (fit.report.end != FitEnd::Cancelled) break;
+      kept = true;
+      EXPECT_FALSE(fit.report.rounds.empty());
+      EXPECT_TRUE(fit.mesh.points.allFinite());
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::Cancelled);
+    }
+  }
+  EXPECT_TRUE(kept);
+}
+
+}  // namespace
+}  // namespace batten
