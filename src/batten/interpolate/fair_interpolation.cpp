@@ -28,6 +28,8 @@ constexpr int kMostRounds = 20;
 /// In diagonals, about: control points of a sound surface stay nearer. Others are of a system that was nearly singular,
 /// and their surface may have lost its tangent planes and with them its energy.
 constexpr double kFarthest = 20.0;
+/// Of the rounds before the last, which only give lengths.
+constexpr double kReferenceTolerance = 1e-4;
 
 void require_options(const FairOptions& options, Index vertices) {
   const auto refuse = [](const std::string& what) { throw Error(ErrorCode::BadArgument, what); };
@@ -187,13 +189,14 @@ Values FairSolve::run(const Values& targets, const Values& lengths, const std::o
   double level = control ? objective(*control, targets) : 0.0;
   report.kept_plain = control.has_value();
   StopRule stop;
-  stop.tolerance = options_.tolerance;
   stop.max_iterations = options_.max_iterations;
   for (int round = 0; round < options_.rounds; ++round) {
     const Progress of_round =
         progress_within(progress, static_cast<double>(round) / options_.rounds, (round + 1.0) / options_.rounds);
     const Values& reference = round == 0 || !control ? lengths : *control;
     const ShapeEnergy::Matrix matrix = energy_.matrix(reference, progress_within(of_round, 0.0, 0.3));
+    const bool is_last = round + 1 == options_.rounds;
+    stop.tolerance = is_last ? options_.tolerance : std::max(options_.tolerance, kReferenceTolerance);
     stop.progress = progress_within(of_round, 0.4, 0.95);
     Values unknowns = system_.unknowns(control ? *control : lengths);
     report.solve.append(system_.minimise(matrix, targets, normals_, stop, unknowns), ", ");
@@ -207,6 +210,7 @@ Values FairSolve::run(const Values& targets, const Values& lengths, const std::o
       break;
     }
   }
+  report.energy = position_weights_.size() == 0 ? level : energy_.energy(*control);
   return system_.control(system_.unknowns(*control), targets);
 }
 
@@ -267,7 +271,6 @@ FairInterpolant interpolate_fairly(const Topology& topology, const Scheme& schem
   report.levels = levels;
   Values control = solve.run(wanted, start.values, plain, report, progress_within(progress, 0.2, 0.95));
   report.plain_energy = plain ? solve.energy(*plain) : std::numeric_limits<double>::quiet_NaN();
-  report.energy = solve.energy(control);
   report.diagonal = frame.diagonal;
   const double unit = std::pow(frame.scale, 2 * order_of(options.energy) - 4);
   report.plain_energy *= unit;
