@@ -115,10 +115,9 @@ TEST(ConjugateGradients, TakesColumnsForOneVectorWhereTheMatrixMixesThem) {
   const Values right = test::random_values(30, 3);
   const IncompleteFactor factor(matrix);
   Values x = Values::Zero(30, 3);
-  const SolveReport report =
-      conjugate_gradients([&](const Values& p, Values& q) { q = matrix * p * mix; },
-                          [&](const Values& b, Values& z) { factor.solve(b, z); }, Coefficients::Joint, right, x,
-                          {1e-10, 400, {}});
+  const SolveReport report = conjugate_gradients([&](const Values& p, Values& q) { q = matrix * p * mix; },
+                                                 [&](const Values& b, Values& z) { factor.solve(b, z); },
+                                                 Coefficients::Joint, right, x, {1e-10, 400, {}});
   EXPECT_TRUE(report.converged);
   EXPECT_LE(report.iterations, 4);  // the mixing matrix has three eigenvalues
   EXPECT_LT((matrix * x * mix - right).norm(), 1e-7 * right.norm());
