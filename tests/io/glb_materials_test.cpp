@@ -81,9 +81,36 @@ TEST(GlbMaterials, ComeBackFromTheFileThatTheyWereReadFrom) {
   std::filesystem::remove(folder.path("paint.mtl"));
   std::filesystem::remove(folder.path("sub/wood.png"));
   expect_paint(load_glb(folder.path("sub/n.glb")));
+}
+
+/// With the images that the GLB holds, each once.
+TEST(GlbMaterials, GetAMaterialFileBesideAnObj) {
+  const TemporaryFolder folder;
+  make_paint(folder);
+  Mesh mesh = painted_cube();
+  mesh.groups.push_back({"usemtl", "oak", 5});
+  make_file(folder.path("paint.mtl"), file_text(folder.path("paint.mtl")) + "newmtl oak\nmap_Kd sub/wood.png\n");
+  write_mesh(folder.path("m.glb"), mesh);
+  mesh = read_mesh(folder.path("m.glb"));
+  write_mesh(folder.path("sub/n.obj"), mesh);
+  EXPECT_NE(file_text(folder.path("sub/n.obj")).find("mtllib n.mtl\n"), std::string::npos);
+  EXPECT_EQ(
+      file_text(folder.path("sub/n.mtl")),
+      "newmtl oak\nKd 1 1 1\nmap_Kd n-1.png\nnewmtl red\nKd 1 0.5 0\nd 0.5\nnewmtl wood\nKd 1 1 1\nmap_Kd n-1.png\n");
+  EXPECT_EQ(file_text(folder.path("sub/n-1.png")), kPng);
+  EXPECT_EQ(find_losses(folder.path("sub/n.obj"), mesh), std::vector<std::string>{});
+}
+
+TEST(GlbMaterials, AreLostInAnObjThatNoFileStandsBeside) {
+  const TemporaryFolder folder;
+  make_paint(folder);
+  write_mesh(folder.path("m.glb"), painted_cube());
+  const Mesh mesh = read_mesh(folder.path("m.glb"));
+  EXPECT_EQ(find_losses("-", mesh, {"obj"}), std::vector<std::string>{"colours and images of materials"});
+  std::filesystem::remove(folder.path("m.glb"));
   write_mesh(folder.path("m.obj"), mesh);
   EXPECT_EQ(file_text(folder.path("m.obj")).find("mtllib"), std::string::npos);
-  EXPECT_EQ(find_losses("m.obj", mesh), std::vector<std::string>{"colours and images of materials"});
+  EXPECT_EQ(find_losses(folder.path("m.obj"), mesh), std::vector<std::string>{"colours and images of materials"});
 }
 
 TEST(GlbMaterials, AMeshWithoutMaterialsNamesNoLibrary) {

@@ -6,6 +6,7 @@
 #include "batten/error.h"
 #include "batten/io/formats.h"
 #include "batten/io/gzip.h"
+#include "batten/io/materials.h"
 #include "batten/io/write_check.h"
 #include "batten/progress.h"
 
@@ -151,6 +152,7 @@ void write_mesh(const std::string& path, const Mesh& mesh, const WriteOptions& o
   }
   const std::string name = path == "-" ? "standard output" : path;
   io::require_writable(name, mesh);
+  if (known.extension == std::string_view("obj")) io::write_obj_materials(name, mesh);
   write_atomically(path, [&](const std::string& target) {
     io::OutputFile file(target, name, progress);
     known.write(file, mesh, options);

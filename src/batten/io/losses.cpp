@@ -140,8 +140,8 @@ class Losses {
   void materials() {
     const std::vector<std::string>& libraries = mesh_.material_libraries;
     if (is("obj")) {
-      return add(std::any_of(libraries.begin(), libraries.end(), io::is_gltf_library),
-                 "colours and images of materials");
+      const bool in_gltf = std::any_of(libraries.begin(), libraries.end(), io::is_gltf_library);
+      return add(in_gltf && io::obj_material_file(path_, mesh_).empty(), "colours and images of materials");
     }
     if (place_.groups == KeptGroups::None) return add(!libraries.empty(), "materials");
     if (!is("glb")) return add(!libraries.empty(), "material library");

@@ -36,6 +36,13 @@ bool is_gltf_library(const std::string& library);
 /// map_Kd. Of several materials of one name the first counts. `path` is the file's.
 void read_obj_materials(const std::string& path, std::string_view text, Materials& materials);
 
+/// The name, in the folder of `path`, of the material file that an OBJ file gets where a glTF file says how the mesh's
+/// materials look: `bracket.mtl` for `bracket.obj`. Empty where none does, or where no file can stand beside the OBJ.
+std::string obj_material_file(const std::string& path, const Mesh& mesh);
+
+/// Writes that file, if there is one, and beside it the images that the glTF file holds. Throws Error(FileNotWritable).
+void write_obj_materials(const std::string& path, const Mesh& mesh);
+
 /// The first `most` bytes of a file that another file names; nothing if it is no regular file, or cannot be read.
 std::optional<std::string> named_file(const std::string& path, std::size_t most);
 

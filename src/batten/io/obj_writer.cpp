@@ -115,6 +115,8 @@ void write_obj(OutputFile& file, const Mesh& mesh) {
   for (const std::string& library : mesh.material_libraries) {
     if (!is_gltf_library(library)) file.write("mtllib " + library + "\n");
   }
+  const std::string own = obj_material_file(file.name(), mesh);
+  if (!own.empty()) file.write("mtllib " + own + "\n");
   write_points(file, mesh);
   write_list(file, "vt", corner_list(mesh, "uv"));
   write_list(file, "vn", corner_list(mesh, "normal"));
