@@ -8,6 +8,7 @@
 #include "batten/mesh/places.h"
 #include "batten/mesh/seams.h"
 #include "batten/mesh/summary.h"
+#include "batten/mesh/vertex_fields.h"
 #include "batten/parallel/parallel.h"
 #include "cli/contents.h"
 #include "cli/curvature.h"
@@ -204,19 +205,16 @@ void describe_problems(const std::vector<MeshProblem>& problems, Table& table, J
   }
 }
 
-/// True where no step of a repair has anything to do: no fault, no open edge to weld, no vertex without a face.
-bool is_whole(const std::optional<Topology>& topology) {
-  if (!topology) return false;
-  for (Index v = 0; v < topology->vertex_count(); ++v) {
-    if (topology->is_isolated(v) || topology->is_boundary_vertex(v)) return false;
-  }
-  return true;
+/// True where no step of a repair has anything to do: no fault, no open edges to weld, no vertex without a face.
+bool is_whole(const std::optional<Topology>& topology, Index seam_vertices) {
+  return topology && seam_vertices == 0 && isolated_count(*topology) == 0;
 }
 
 /// What --repair would do, where there is something.
-void describe_repair(const Mesh& mesh, const std::optional<Topology>& topology, bool quiet, Table& table, Json& json) {
+void describe_repair(const Mesh& mesh, const std::optional<Topology>& topology, Index seam_vertices, bool quiet,
+                     Table& table, Json& json) {
   json["repair_would"] = Json::array();
-  if (is_whole(topology)) return;
+  if (is_whole(topology, seam_vertices)) return;
   const RepairResult repaired = repair(mesh, {}, ProgressBar("looking for repairs", quiet).callback());
   if (!repaired.changes.empty()) add_changes(table, "--repair would have", repaired.changes);
   json["repair_would"] = repairs_json(repaired)["changes"];
@@ -273,12 +271,12 @@ void describe_intersections(const Mesh& mesh, const Topology& topology, const In
                                          found.faces[0][0], found.faces[0][1]));
 }
 
-void describe_surface(const Mesh& mesh, const Topology& topology, const InfoArguments& arguments, Table& table,
-                      Json& json) {
+void describe_surface(const Mesh& mesh, const Topology& topology, Index seam_vertices, const InfoArguments& arguments,
+                      Table& table, Json& json) {
   const Scheme scheme = choose_scheme(mesh);
   const Components components = connected_components(topology);
   describe_topology(topology, components, table, json);
-  describe_seams(coincident_boundary_count(topology, mesh.points), arguments.common.repair, table, json);
+  describe_seams(seam_vertices, arguments.common.repair, table, json);
   describe_sizes(topology, components, mesh.points, table, json);
   describe_intersections(mesh, topology, arguments, table, json);
   table.add("surface", scheme_text(scheme));
@@ -306,9 +304,10 @@ int run_info(const InfoArguments& arguments) {
   describe_box(mesh, table, json);
   describe_values(mesh, table, json);
   const std::optional<Topology> topology = topology_of(mesh, common.quiet);
+  const Index seam_vertices = topology ? coincident_boundary_count(*topology, mesh.points) : 0;
   json["problems"] = Json::array();
   if (topology) {
-    describe_surface(mesh, *topology, arguments, table, json);
+    describe_surface(mesh, *topology, seam_vertices, arguments, table, json);
   } else {
     const std::vector<MeshProblem> problems = check(mesh, 10, ProgressBar("checking", common.quiet).callback());
     describe_problems(problems, table, json);
@@ -317,7 +316,7 @@ int run_info(const InfoArguments& arguments) {
     throw Error(ErrorCode::BadArgument,
                 common.input + ": no surface can be made of this mesh, so it has no curvature (info tells why)");
   }
-  if (!common.repair) describe_repair(mesh, topology, common.quiet, table, json);
+  if (!common.repair) describe_repair(mesh, topology, seam_vertices, common.quiet, table, json);
   table.print(common);
   write_json(common.report, json);
   return 0;

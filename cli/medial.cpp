@@ -10,6 +10,7 @@
 #include "batten/medial/medial_refinement.h"
 #include "batten/medial/medial_surface.h"
 #include "batten/medial/spoke_mesh.h"
+#include "batten/refine/spread_numbers.h"
 #include "cli/interpolation_rows.h"
 #include "cli/job.h"
 #include "cli/normals.h"

@@ -7,8 +7,7 @@
 
 #include "batten/error.h"
 #include "batten/interpolate/wanted_normals.h"
-#include "batten/mesh/vertex_fields.h"
-#include "batten/refine/refined_mesh.h"
+#include "batten/refine/spread_numbers.h"
 
 namespace batten::cli {
 
@@ -114,20 +113,6 @@ nlohmann::ordered_json normals_json(const TurnReport& report) {
             {"turned", report.energy.turned},
             {"relaxed", report.energy.relaxed},
             {"iterations", report.energy.iterations}}}};
-}
-
-Scalars spread_numbers(const Scalars& numbers, const Topology& given, SchemeKind kind, Index count) {
-  Scalars all = Scalars::Constant(given.vertex_count(), std::nan(""));
-  all.head(numbers.size()) = numbers;
-  // Vertices that a first refinement made get theirs on edges, then in faces; the third round is for those beside them.
-  for (int round = 0; round < 3; ++round) fill_from_neighbours(given, all);
-  Values spread = all;
-  Topology topology = given;
-  while (topology.vertex_count() < count) {
-    spread = refine_midpoints(topology, kind, spread);
-    topology = Refinement(topology, Scheme{kind}).child();
-  }
-  return spread;
 }
 
 void show_angles(const Scalars& angles, const Topology& given, Subject& subject) {

@@ -21,10 +21,6 @@ void add_normal_rows(const TurnReport& report, Table& table);
 void add_angle_rows(const TurnReport& report, Table& table);
 nlohmann::ordered_json normals_json(const TurnReport& report);
 
-/// Numbers at the first vertices of `given`, at the vertices of `given` refined until it has `count`: linear over its
-/// faces. Where a number is NaN, and at the other vertices of `given`, neighbours give one.
-Scalars spread_numbers(const Scalars& numbers, const Topology& given, SchemeKind kind, Index count);
-
 /// Draws the surface before its normals were turned and after, side by side, in the colours asked for.
 void draw_turned(const InterpolatedMesh& before, const InterpolatedMesh& after, const TurnReport& report,
                  const PictureArguments& arguments, Job& job);

@@ -90,6 +90,7 @@
 #include "batten/refine/face_varying.h"
 #include "batten/refine/refined_mesh.h"
 #include "batten/refine/refinement.h"
+#include "batten/refine/spread_numbers.h"
 #include "batten/scheme/scheme.h"
 #include "batten/surface/curvature.h"
 #include "batten/surface/limit_surface.h"

@@ -1,6 +1,7 @@
 /// The verb interpolate with --from and --local: what moves, and what stays.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "batten/io/io.h"
@@ -57,6 +58,14 @@ TEST_F(Tool, LocalMovesOnlyTheRingsAroundAPoint) {
   EXPECT_EQ(report["missed_points"], (errors.array() > 1e-8).count());
   EXPECT_LE(report["max_error"].get<double>(), 1e-14);
   EXPECT_EQ(report["rings"], 2);
+}
+
+TEST_F(Tool, FromDrawsBeforeAndAfterWithoutAnotherOutput) {
+  ASSERT_EQ(run("interpolate " + kModels + "creature.obj -o control.obj").status, 0);
+  const Outcome result = run("interpolate " + kHorn + " --from control.obj --picture p.png --before-after --width 160");
+  if (result.err.find("this build has no pictures") != std::string::npos) GTEST_SKIP() << result.err;
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(std::filesystem::exists(path("p.png")));
 }
 
 TEST_F(Tool, FromKeepsWhatElseTheControlMeshHolds) {

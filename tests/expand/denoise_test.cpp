@@ -6,8 +6,10 @@
 #include <numbers>
 
 #include "batten/error.h"
+#include "batten/expand/crease_corners.h"
 #include "batten/expand/strength.h"
 #include "batten/expand/volume.h"
+#include "batten/limit/limit_matrix.h"
 #include "batten/parallel/parallel.h"
 #include "batten/refine/refinement.h"
 #include "support/schemes.h"
@@ -295,6 +297,37 @@ TEST(Denoise, FeaturesDoNoHarm) {
     options.features = true;
     EXPECT_LE(torus_error(denoise(mesh, test::kCatmullClark, options).points), 1.02 * without) << share;
   }
+}
+
+/// Ridges of 28 degrees are no edges here, and the smoothing that suits the edges of 90 would flatten them.
+TEST(Denoise, FeaturesMoveNoVertexFartherThanNoiseExplains) {
+  Mesh mesh = fine_cube(4);
+  mesh.points.col(2) += 0.25 * mesh.points.col(0).cwiseAbs();
+  add_noise(mesh, 0.05, 3);
+  DenoiseOptions options;
+  options.automatic = true;
+  const DenoiseResult plain = denoise(mesh, test::kCatmullClark, options);
+  options.features = true;
+  const DenoiseResult result = denoise(mesh, test::kCatmullClark, options);
+  EXPECT_GT(result.features.size(), 100U);
+  const Values normals = limit_normals(Topology(mesh), test::kCatmullClark, mesh.points).vertices;
+  const auto moved = [&](const Points& points, Index v) {
+    return std::abs(normals.row(v).dot(points.row(v) - mesh.points.row(v)));
+  };
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    EXPECT_LE(moved(result.points, v), std::max(2.5 * plain.noise.deviation, moved(plain.points, v)) + 1e-12) << v;
+  }
+}
+
+/// In a plane nothing but the place to hold tells where along it a vertex belongs.
+TEST(CornerPlaces, HoldTheGivenPlaceAlongAPlane) {
+  const Mesh mesh = grid(6, 6);
+  const Topology topology(mesh);
+  Points noisy = mesh.points;
+  noisy.rowwise() += Eigen::RowVector3d(0.2, -0.1, 0.3);
+  const Points places = corner_places(topology, {24}, mesh.points, noisy, mesh.points, 1.0);
+  EXPECT_LT((places.row(0) - mesh.points.row(24)).norm(), 1e-12);
+  EXPECT_EQ((corner_places(topology, {24}, mesh.points, noisy, mesh.points, 0.1).row(0) - noisy.row(24)).norm(), 0.0);
 }
 
 TEST(Denoise, KeepsTheBoundaryWhenAsked) {

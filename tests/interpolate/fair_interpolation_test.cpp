@@ -269,6 +269,20 @@ TEST(FairInterpolation, HasTheNormalsWanted) {
   }
 }
 
+/// The conditions alone hold for n as for -n, which is nearer here.
+TEST(FairInterpolation, HasNormalsThatThePlainSurfaceHasTheOtherWay) {
+  const Mesh mesh = test::jittered(torus(7, 5), 0.05, 1);
+  const Topology topology(mesh);
+  const Interpolant plain = Interpolator(topology, test::kCatmullClark).solve(mesh.points);
+  FairOptions options;
+  options.normals = limit_normals(plain.topology, plain.scheme, plain.control).vertices;
+  options.normals.row(3) += Eigen::RowVector3d(0.1, 0.2, -0.1);
+  options.normals.row(3) *= -1.0;
+  const FairInterpolant fair = interpolate_fairly(topology, test::kCatmullClark, mesh.points, options);
+  EXPECT_LE(fair.report.max_angle, 1e-8);
+  EXPECT_LE(missed(fair, mesh.points), 1e-10 * fair.report.diagonal);
+}
+
 /// A wave of eight faces along a strip, far from its ends. Bending lets the strip's free sides follow.
 TEST(FairInterpolation, NeverHasMoreEnergyThanTheSurfaceWhoseNormalsAreTurned) {
   for (const test::NamedMesh& sample : fair_samples()) {

@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <limits>
 #include <vector>
 
 #include "batten/solve/krylov.h"
+#include "support/errors.h"
 #include "support/values.h"
 
 namespace batten {
@@ -35,7 +37,7 @@ SolveReport solve(const Matrix& matrix, const Values& right, Coefficients coeffi
   };
   x = Values::Zero(right.rows(), right.cols());
   return conjugate_gradients([&](const Values& p, Values& q) { q = matrix * p; }, precondition, coefficients, right, x,
-                             {.tolerance = 1e-9, .max_iterations = 4000});
+                             {1e-9, 4000, {}});
 }
 
 /// Within a band nothing is left out.
@@ -47,22 +49,55 @@ TEST(IncompleteFactor, IsTheWholeFactorWhereNothingFillsIn) {
   EXPECT_LT((matrix * x - right).norm(), 1e-9 * right.norm());
 }
 
-TEST(IncompleteFactor, SavesIterations) {
-  constexpr int kSide = 14;
+/// The squared Laplacian of a square of side * side places.
+Matrix bending_of_a_plate(int side) {
   std::vector<Eigen::Triplet<double>> entries;
-  for (int i = 0; i < kSide; ++i) {
-    for (int j = 0; j < kSide; ++j) {
-      const int here = kSide * i + j;
+  for (int i = 0; i < side; ++i) {
+    for (int j = 0; j < side; ++j) {
+      const int here = side * i + j;
       entries.emplace_back(here, here, 4.0);
-      if (i > 0) entries.emplace_back(here, here - kSide, -1.0);
+      if (i > 0) entries.emplace_back(here, here - side, -1.0);
       if (j > 0) entries.emplace_back(here, here - 1, -1.0);
-      if (i + 1 < kSide) entries.emplace_back(here, here + kSide, -1.0);
-      if (j + 1 < kSide) entries.emplace_back(here, here + 1, -1.0);
+      if (i + 1 < side) entries.emplace_back(here, here + side, -1.0);
+      if (j + 1 < side) entries.emplace_back(here, here + 1, -1.0);
     }
   }
-  Matrix laplacian(kSide * kSide, kSide * kSide);
+  Matrix laplacian(side * side, side * side);
   laplacian.setFromTriplets(entries.begin(), entries.end());
-  const Matrix matrix = laplacian * laplacian;  // a plate
+  return laplacian * laplacian;
+}
+
+/// The inverse of what the factor solves, next to the matrix.
+TEST(IncompleteFactor, EqualsTheMatrixWhereThatHasEntries) {
+  const Matrix matrix = bending_of_a_plate(6);
+  Values inverse;
+  IncompleteFactor(matrix).solve(Values::Identity(36, 36), inverse);
+  const Eigen::MatrixXd product = Eigen::MatrixXd(inverse).inverse();
+  for (int i = 0; i < 36; ++i) {
+    for (Matrix::InnerIterator entry(matrix, i); entry; ++entry) {
+      EXPECT_NEAR(product(i, entry.col()), entry.value(), 1e-11) << i << ", " << entry.col();
+    }
+  }
+  EXPECT_GT((product - Eigen::MatrixXd(matrix)).cwiseAbs().maxCoeff(), 1e-3);  // elsewhere it does not
+}
+
+/// Positive definite, and yet its factor without what fills in would have the root of a negative number (Kershaw 1978).
+TEST(IncompleteFactor, GrowsTheDiagonalWhereItWouldNotBePositive) {
+  Eigen::Matrix4d full;
+  full << 3.0, -2.0, 0.0, 2.0, -2.0, 3.0, -2.0, 0.0, 0.0, -2.0, 3.0, -2.0, 2.0, 0.0, -2.0, 3.0;
+  Values x;
+  IncompleteFactor(Matrix(full.sparseView())).solve(Values::Identity(4, 4), x);
+  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(x).eigenvalues().minCoeff(), 0.0);
+}
+
+TEST(IncompleteFactor, RefusesNumbersThatAreNotFinite) {
+  Matrix matrix = bending_of_a_line(5);
+  matrix.coeffRef(2, 1) = matrix.coeffRef(1, 2) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(test::code_of([&] { IncompleteFactor{matrix}; }), ErrorCode::NotFinite);
+}
+
+TEST(IncompleteFactor, SavesIterations) {
+  const Matrix matrix = bending_of_a_plate(14);
   const Values right = test::random_values(196, 3);
   Values x;
   const SolveReport plain = solve(matrix, right, Coefficients::EachColumn, false, x);
@@ -80,10 +115,9 @@ TEST(ConjugateGradients, TakesColumnsForOneVectorWhereTheMatrixMixesThem) {
   const Values right = test::random_values(30, 3);
   const IncompleteFactor factor(matrix);
   Values x = Values::Zero(30, 3);
-  const SolveReport report =
-      conjugate_gradients([&](const Values& p, Values& q) { q = matrix * p * mix; },
-                          [&](const Values& b, Values& z) { factor.solve(b, z); }, Coefficients::Joint, right, x,
-                          {.tolerance = 1e-10, .max_iterations = 400});
+  const SolveReport report = conjugate_gradients([&](const Values& p, Values& q) { q = matrix * p * mix; },
+                                                 [&](const Values& b, Values& z) { factor.solve(b, z); },
+                                                 Coefficients::Joint, right, x, {1e-10, 400, {}});
   EXPECT_TRUE(report.converged);
   EXPECT_LE(report.iterations, 4);  // the mixing matrix has three eigenvalues
   EXPECT_LT((matrix * x * mix - right).norm(), 1e-7 * right.norm());

@@ -61,13 +61,14 @@ double angle_between(const Eigen::RowVector3d& a, const Eigen::RowVector3d& b) {
 /// A forest and the mesh of its leaves, made anew after each cut.
 class AdaptiveBuilder {
  public:
-  AdaptiveBuilder(const Topology& topology, const Scheme& scheme, ConstValuesRef control,
-                  const AdaptiveOptions& options)
-      : patches_(topology, scheme),
+  AdaptiveBuilder(const SurfacePatches& patches, ConstValuesRef control, const AdaptiveOptions& options)
+      : patches_(patches),
         control_(control),
         options_(options),
-        surface_(is_interpolating(scheme.kind) ? nullptr : std::make_unique<LimitSurface>(patches_, control)),
-        butterfly_(surface_ != nullptr ? nullptr : std::make_unique<ButterflyPoints>(topology, scheme, control)),
+        surface_(is_interpolating(patches.scheme().kind) ? nullptr : std::make_unique<LimitSurface>(patches_, control)),
+        butterfly_(surface_ != nullptr
+                       ? nullptr
+                       : std::make_unique<ButterflyPoints>(patches.topology(), patches.scheme(), control)),
         forest_(base(), patches_.holes()),
         quads_(options.faces == FaceKind::Quads) {
     add_vertices(forest_.vertex_places(), 0);
@@ -324,7 +325,13 @@ AdaptiveMesh AdaptiveBuilder::finish() {
 AdaptiveMesh tessellate_adaptively(const Topology& topology, const Scheme& scheme, ConstValuesRef control,
                                    const AdaptiveOptions& options, const Progress& progress) {
   check(options, scheme);
-  AdaptiveBuilder builder(topology, scheme, control, options);
+  return tessellate_adaptively(SurfacePatches(topology, scheme), control, options, progress);
+}
+
+AdaptiveMesh tessellate_adaptively(const SurfacePatches& patches, ConstValuesRef control,
+                                   const AdaptiveOptions& options, const Progress& progress) {
+  check(options, patches.scheme());
+  AdaptiveBuilder builder(patches, control, options);
   return builder.build(progress);
 }
 

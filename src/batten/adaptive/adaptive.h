@@ -64,6 +64,9 @@ struct AdaptiveMesh {
 /// LimitSurface throws.
 AdaptiveMesh tessellate_adaptively(const Topology& topology, const Scheme& scheme, ConstValuesRef control,
                                    const AdaptiveOptions& options, const Progress& progress = {});
+/// The same where the surface's pieces are known.
+AdaptiveMesh tessellate_adaptively(const SurfacePatches& patches, ConstValuesRef control,
+                                   const AdaptiveOptions& options, const Progress& progress = {});
 
 /// The greatest distance from the surface to the mesh, by samples: the surface at the middles of each face's edges and
 /// at four places inside (a quad: of both its halves), against the face and those around. O(faces), threaded.

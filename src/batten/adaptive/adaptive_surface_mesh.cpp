@@ -250,9 +250,9 @@ Values midpoints_at(const SurfacePatches& patches, const std::vector<SurfacePlac
 AdaptiveMesh adaptive_surface_mesh(const Topology& topology, const Scheme& scheme, const Mesh& control,
                                    const AdaptiveOptions& options, const Progress& progress) {
   constexpr double kTessellated = 0.8;  // of the time
-  AdaptiveMesh result =
-      tessellate_adaptively(topology, scheme, control.points, options, progress_within(progress, 0.0, kTessellated));
   const SurfacePatches patches(topology, scheme);
+  AdaptiveMesh result =
+      tessellate_adaptively(patches, control.points, options, progress_within(progress, 0.0, kTessellated));
   result.mesh.material_libraries = control.material_libraries;
   carry_groups(patches, control, result);
   const PointsAt points_at = is_interpolating(scheme.kind) ? butterfly_points_at(patches) : spline_points_at(patches);

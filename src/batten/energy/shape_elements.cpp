@@ -1,7 +1,7 @@
 #include "batten/energy/shape_elements.h"
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
 
 namespace batten {
 
@@ -110,26 +110,6 @@ void shape_gradient(ShapeEnergyKind kind, const JetTable& table, std::span<const
       sum += jets.transpose().lazyProduct(by_derivatives);
     });
   });
-}
-
-void ElementOrder::sort(std::span<const Index> vertices) {
-  order_.resize(vertices.size());
-  std::iota(order_.begin(), order_.end(), 0);
-  std::sort(order_.begin(), order_.end(), [&](Index a, Index b) { return vertices[a] < vertices[b]; });
-}
-
-void ElementOrder::add_row(const double* numbers, std::span<const Index> vertices, Index row,
-                           Eigen::SparseMatrix<double, Eigen::RowMajor>& matrix) const {
-  const int begin = matrix.outerIndexPtr()[row];
-  const int* column = matrix.innerIndexPtr() + begin;
-  double* value = matrix.valuePtr() + begin;
-  for (const Index i : order_) {
-    while (*column != vertices[i]) {
-      ++column;
-      ++value;
-    }
-    *value += numbers[i];
-  }
 }
 
 }  // namespace batten

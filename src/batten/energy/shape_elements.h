@@ -29,16 +29,4 @@ double shape_energy_of(ShapeEnergyKind kind, const JetTable& table, std::span<co
 void shape_gradient(ShapeEnergyKind kind, const JetTable& table, std::span<const Index> vertices,
                     ConstValuesRef reference, ShapeScratch& scratch, double* gradient);
 
-/// The vertices of an element in ascending order, to walk along a row's columns.
-class ElementOrder {
- public:
-  void sort(std::span<const Index> vertices);
-  /// Adds `numbers`, one a vertex of the element, to a row that has all of them among its columns.
-  void add_row(const double* numbers, std::span<const Index> vertices, Index row,
-               Eigen::SparseMatrix<double, Eigen::RowMajor>& matrix) const;
-
- private:
-  Buffer<Index> order_;
-};
-
 }  // namespace batten

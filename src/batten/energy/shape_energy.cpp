@@ -1,9 +1,10 @@
 #include "batten/energy/shape_energy.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
+#include <memory>
+#include <span>
 #include <string>
+#include <utility>
 
 #include "batten/energy/jet_tables.h"
 #include "batten/energy/matrix_rows.h"
@@ -20,12 +21,38 @@ namespace {
 /// Elements whose matrices are worked out before they are added up: 4 MB of regular ones.
 constexpr Index kElementsAtOnce = 2048;
 constexpr std::ptrdiff_t kElementBlock = 64;
-/// Tasks that add up rows, each its own.
-constexpr Index kOwners = 8;
+constexpr std::ptrdiff_t kRowBlock = 256;
 
 struct PatternScratch {
   RowSum row;
 };
+
+/// Elements begin to end and their matrices: that of element e starts at numbers[starts[e - begin]].
+struct ElementMatrices {
+  Index begin;
+  Index end;
+  Buffer<std::size_t> starts;
+  Buffer<double> numbers;
+};
+
+/// Adds to a row what the elements have for it. sums: a zero for each column, before and after.
+void add_row(const FaceElements& elements, const ElementMatrices& matrices, Index row, Buffer<double>& sums,
+             ShapeEnergy::Matrix& matrix) {
+  const std::span<const FaceElements::Use> uses = elements.uses(row);
+  auto use = std::lower_bound(uses.begin(), uses.end(), matrices.begin,
+                              [](const FaceElements::Use& one, Index element) { return one.element < element; });
+  for (; use != uses.end() && use->element < matrices.end; ++use) {
+    const std::span<const Index> vertices = elements.vertices(use->element);
+    const double* const numbers =
+        matrices.numbers.data() + matrices.starts[use->element - matrices.begin] + use->place * vertices.size();
+    for (std::size_t j = 0; j < vertices.size(); ++j) sums[vertices[j]] += numbers[j];
+  }
+  for (int e = matrix.outerIndexPtr()[row]; e < matrix.outerIndexPtr()[row + 1]; ++e) {
+    double& sum = sums[matrix.innerIndexPtr()[e]];
+    matrix.valuePtr()[e] += sum;
+    sum = 0.0;
+  }
+}
 
 }  // namespace
 
@@ -62,8 +89,9 @@ struct ShapeEnergy::Parts {
       throw Error(ErrorCode::BadShape, "a reference surface needs control points of three columns");
     require_finite(points, "control points");
   }
-  void add_elements(Index begin, Index end, ConstValuesRef reference, std::span<const double> face_factors,
-                    Buffer<double>& numbers, Matrix& matrix) const;
+  void find_matrices(Index begin, Index end, ConstValuesRef reference, std::span<const double> face_factors,
+                     ElementMatrices& matrices) const;
+  Buffer<Index> rows_of(Index begin, Index end, Buffer<std::uint8_t>& marks) const;
   /// Of the control face that an element lies in.
   double factor(Index element, std::span<const double> face_factors) const {
     return face_factors[face_factors.size() == 1 ? 0 : static_cast<std::size_t>(elements.control_face(element))];
@@ -71,44 +99,50 @@ struct ShapeEnergy::Parts {
   void require_factors(std::span<const double> face_factors) const {
     const auto faces = static_cast<std::size_t>(patches.topology().face_count());
     if (face_factors.size() == 1 || face_factors.size() == faces) return;
-    throw Error(ErrorCode::BadShape, "there are " + std::to_string(face_factors.size()) + " factors, but the mesh has " +
-                                         std::to_string(faces) + " faces; give one for all faces or one a face");
+    throw Error(ErrorCode::BadShape, "there are " + std::to_string(face_factors.size()) +
+                                         " factors, but the mesh has " + std::to_string(faces) +
+                                         " faces; give one for all faces or one a face");
   }
 };
 
-/// The matrices first, in parallel; then every row sums its own entries, in the order of the elements.
-void ShapeEnergy::Parts::add_elements(Index begin, Index end, ConstValuesRef reference,
-                                      std::span<const double> face_factors, Buffer<double>& numbers,
-                                      Matrix& matrix) const {
-  Buffer<std::size_t> starts(static_cast<std::size_t>(end - begin) + 1, 0);
+void ShapeEnergy::Parts::find_matrices(Index begin, Index end, ConstValuesRef reference,
+                                       std::span<const double> face_factors, ElementMatrices& matrices) const {
+  matrices.begin = begin;
+  matrices.end = end;
+  matrices.starts.assign(static_cast<std::size_t>(end - begin) + 1, 0);
   for (Index e = begin; e < end; ++e) {
     const std::size_t size = elements.vertices(e).size();
-    starts[e - begin + 1] = starts[e - begin] + size * size;
+    matrices.starts[e - begin + 1] = matrices.starts[e - begin] + size * size;
   }
-  numbers.resize(std::max(numbers.size(), starts.back()));
+  matrices.numbers.resize(std::max(matrices.numbers.size(), matrices.starts.back()));
   parallel_for(
       end - begin,
       [&](std::ptrdiff_t first, std::ptrdiff_t last) {
         ShapeScratch scratch;
         for (auto i = static_cast<Index>(first); i < static_cast<Index>(last); ++i) {
-          double* const to = numbers.data() + starts[i];
-          shape_matrix(kind, tables[elements.kind(begin + i)], elements.vertices(begin + i), reference, scratch, to);
+          double* const first_number = matrices.numbers.data() + matrices.starts[i];
+          double* const end_number = matrices.numbers.data() + matrices.starts[i + 1];
+          shape_matrix(kind, tables[elements.kind(begin + i)], elements.vertices(begin + i), reference, scratch,
+                       first_number);
           const double by = factor(begin + i, face_factors);
-          for (std::size_t e = starts[i]; by != 1.0 && e < starts[i + 1]; ++e) numbers[e] *= by;
+          for (double* number = first_number; by != 1.0 && number < end_number; ++number) *number *= by;
         }
       },
       kElementBlock);
-  parallel_for_each(kOwners, [&](std::ptrdiff_t owner) {
-    ElementOrder order;
-    for (Index e = begin; e < end; ++e) {
-      const std::span<const Index> vertices = elements.vertices(e);
-      order.sort(vertices);
-      for (std::size_t i = 0; i < vertices.size(); ++i) {
-        if (vertices[i] % kOwners != owner) continue;
-        order.add_row(numbers.data() + starts[e - begin] + i * vertices.size(), vertices, vertices[i], matrix);
-      }
+}
+
+/// The vertices of elements begin to end, each once. marks: a zero for each vertex, before and after.
+Buffer<Index> ShapeEnergy::Parts::rows_of(Index begin, Index end, Buffer<std::uint8_t>& marks) const {
+  Buffer<Index> rows;
+  for (Index e = begin; e < end; ++e) {
+    for (const Index v : elements.vertices(e)) {
+      if (marks[v] != 0) continue;
+      marks[v] = 1;
+      rows.push_back(v);
     }
-  });
+  }
+  for (const Index v : rows) marks[v] = 0;
+  return rows;
 }
 
 ShapeEnergy::ShapeEnergy(const SurfacePatches& patches, ShapeEnergyKind kind, const QuadratureOptions& options,
@@ -131,11 +165,24 @@ ShapeEnergy::Matrix ShapeEnergy::matrix(ConstValuesRef reference, std::span<cons
   parts_->require_base_points(reference);
   parts_->require_factors(face_factors);
   Matrix matrix = parts_->pattern;
-  Buffer<double> numbers;
+  const auto columns = static_cast<std::size_t>(matrix.cols());
+  ElementMatrices matrices;
+  Buffer<std::uint8_t> marks(columns, 0);
+  ScratchPool<Buffer<double>> pool;
   const Index count = parts_->elements.count();
   for (Index begin = 0; begin < count; begin += kElementsAtOnce) {
     report_progress(progress, static_cast<double>(begin) / count);
-    parts_->add_elements(begin, std::min(count, begin + kElementsAtOnce), reference, face_factors, numbers, matrix);
+    const Index end = std::min(count, begin + kElementsAtOnce);
+    parts_->find_matrices(begin, end, reference, face_factors, matrices);
+    const Buffer<Index> rows = parts_->rows_of(begin, end, marks);
+    parallel_for(
+        static_cast<std::ptrdiff_t>(rows.size()),
+        [&](std::ptrdiff_t first, std::ptrdiff_t last) {
+          auto sums = pool.take([&] { return std::make_unique<Buffer<double>>(columns, 0.0); });
+          for (std::ptrdiff_t i = first; i < last; ++i) add_row(parts_->elements, matrices, rows[i], *sums, matrix);
+          pool.give_back(std::move(sums));
+        },
+        kRowBlock);
   }
   report_progress(progress, 1.0);
   return matrix;

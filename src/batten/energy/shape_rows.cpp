@@ -74,19 +74,19 @@ void PlaneDerivatives::bending(ShapeRows& rows) const {
   rows = turn * forms;
 }
 
-/// Likewise; the mixed derivatives count three times.
+/// Likewise; the mixed derivatives count three times. The forms are those of the first, second and third derivatives;
+/// the last are the identity.
 void PlaneDerivatives::variation(ShapeRows& rows) const {
   const Eigen::Matrix<double, 3, 2> g = connection();
-  Eigen::Matrix<double, 4, 9> forms = Eigen::Matrix<double, 4, 9>::Zero();
-  forms.rightCols<4>().setIdentity();
-  forms.leftCols<2>() = -jet_.middleRows<4>(5) * dual_;
+  Eigen::Matrix<double, 4, 2> of_first = -jet_.middleRows<4>(5) * dual_;
+  Eigen::Matrix<double, 4, 3> of_second = Eigen::Matrix<double, 4, 3>::Zero();
   for (int t = 0; t < 4; ++t) {
     for (int turn = 0; turn < 3; ++turn) {
       const int pair = pair_of(kTriples[t][turn], kTriples[t][(turn + 1) % 3]);
       const int other = kTriples[t][(turn + 2) % 3];
       for (int l = 0; l < 2; ++l) {
-        forms(t, 2 + pair_of(l, other)) -= g(pair, l);
-        forms.row(t).head<2>() += g(pair, l) * g.row(pair_of(l, other));
+        of_second(t, pair_of(l, other)) -= g(pair, l);
+        of_first.row(t) += g(pair, l) * g.row(pair_of(l, other));
       }
     }
   }
@@ -99,7 +99,10 @@ void PlaneDerivatives::variation(ShapeRows& rows) const {
         a[0] * b[1] * c[1] + a[1] * b[0] * c[1] + a[1] * b[1] * c[0], a[1] * b[1] * c[1];
   }
   turned.middleRows<2>(1) *= std::sqrt(3.0);
-  rows = turned * forms;
+  rows.resize(4, 9);
+  rows.leftCols<2>().noalias() = turned.lazyProduct(of_first);
+  rows.middleCols<3>(2).noalias() = turned.lazyProduct(of_second);
+  rows.rightCols<4>() = turned;
 }
 
 }  // namespace

@@ -52,11 +52,12 @@ std::vector<Index> found_corners(const Topology& given, const Topology& creased)
 }
 
 Points corner_places(const Topology& topology, const std::vector<Index>& vertices, ConstValuesRef smoothed,
-                     ConstValuesRef noisy, double most) {
-  constexpr double kHold = 0.05;  // how strongly the own position holds the directions along the planes
+                     ConstValuesRef noisy, ConstValuesRef held, double most) {
+  constexpr double kHold = 0.05;  // how strongly the place to hold counts
   Points places(static_cast<Eigen::Index>(vertices.size()), 3);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Eigen::Vector3d own = noisy.row(vertices[i]).transpose();
+    const Eigen::Vector3d hold = held.row(vertices[i]).transpose();
     Eigen::Matrix3d planes = Eigen::Matrix3d::Zero();
     Eigen::Vector3d offsets = Eigen::Vector3d::Zero();
     double weight = 0.0;
@@ -71,13 +72,13 @@ Points corner_places(const Topology& topology, const std::vector<Index>& vertice
       }
       centre /= topology.face_size(f);
       planes += area * normal * normal.transpose();
-      offsets += area * normal.dot(centre - own) * normal;
+      offsets += area * normal.dot(centre - hold) * normal;
       weight += area;
     }
     Eigen::Vector3d moved = Eigen::Vector3d::Zero();
     if (weight > 0.0) moved = (planes + kHold * weight * Eigen::Matrix3d::Identity()).ldlt().solve(offsets);
-    if (!(moved.norm() <= most)) moved.setZero();
-    places.row(static_cast<Eigen::Index>(i)) = (own + moved).transpose();
+    const Eigen::Vector3d place = hold + moved;
+    places.row(static_cast<Eigen::Index>(i)) = ((place - own).norm() <= most ? place : own).transpose();
   }
   return places;
 }

@@ -1,5 +1,7 @@
 #include "batten/expand/denoise.h"
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -68,15 +70,29 @@ Smoothing smooth(const Topology& topology, const Scheme& scheme, ConstValuesRef 
 }
 
 /// Corners keep their position in the smoothing, with its noise. They go where the smoothed sides around them meet, and
-/// the rest is smoothed again from there.
-void settle_corners(const Topology& given, const Topology& creased, ConstValuesRef points, Smoothing& work,
-                    const Progress& progress) {
+/// the rest is smoothed again from there. held: where corners are along their sides.
+void settle_corners(const Topology& given, const Topology& creased, ConstValuesRef points, ConstValuesRef held,
+                    Smoothing& work, const Progress& progress) {
   constexpr double kFarthest = 5.0;  // of the noise's standard deviation
   const std::vector<Index> corners = found_corners(given, creased);
   if (corners.empty()) return;
   Points start = points;
-  start(corners, Eigen::all) = corner_places(creased, corners, work.points, points, kFarthest * work.noise.deviation);
+  start(corners, Eigen::all) =
+      corner_places(creased, corners, work.points, points, held, kFarthest * work.noise.deviation);
   work.points = work.series.smooth(start, work.choice.m, work.choice.passes, progress);
+}
+
+/// Where a sharp edge was not found, the smoothing that suits the edges that were goes too far. Vertices that it moves
+/// farther along their normals than noise explains, and farther than the smoothing without edges does, go where that
+/// takes them.
+void keep_plausible(ConstValuesRef points, const Smoothing& plain, Smoothing& work) {
+  constexpr double kPlausible = 2.5;  // of the noise's standard deviation
+  for (Eigen::Index v = 0; v < points.rows(); ++v) {
+    const Eigen::RowVector3d normal = plain.normals.row(v);
+    const double moved = std::abs(normal.dot(work.points.row(v) - points.row(v)));
+    const double without = std::abs(normal.dot(plain.points.row(v) - points.row(v)));
+    if (moved > std::max(kPlausible * plain.noise.deviation, without)) work.points.row(v) = plain.points.row(v);
+  }
 }
 
 /// Smooths along the sharp edges that were found, unless they are so many or so wrong that the error to expect is
@@ -87,15 +103,21 @@ Topology smooth_along(const Topology& given, const Scheme& scheme, ConstValuesRe
   constexpr double kClearGain = 0.9;
   const Topology creased = with_creases(given, points, result.features, progress_within(progress, 0.0, 0.1));
   work.emplace(smooth(creased, scheme, points, options, progress_within(progress, 0.1, 0.5)));
-  settle_corners(given, creased, points, *work, progress_within(progress, 0.5, 0.6));
-  if (!options.automatic || given.vertex_count() < kFewestForNoise) return creased;
-  Smoothing plain = smooth(given, scheme, points, options, progress_within(progress, 0.6, 0.9));
+  if (!options.automatic || given.vertex_count() < kFewestForNoise) {
+    settle_corners(given, creased, points, points, *work, progress_within(progress, 0.5, 1.0));
+    return creased;
+  }
+  Smoothing plain = smooth(given, scheme, points, options, progress_within(progress, 0.5, 0.8));
+  settle_corners(given, creased, points, plain.points, *work, progress_within(progress, 0.8, 0.9));
   const auto error_of = [&](const Smoothing& one, double begin, double end) {
     return expected_error(one.series, points, plain.normals, plain.noise.deviation, one.choice,
                           progress_within(progress, begin, end));
   };
   const double error_along = error_of(*work, 0.9, 0.95);
-  if (error_along <= kClearGain * error_of(plain, 0.95, 1.0)) return creased;
+  if (error_along <= kClearGain * error_of(plain, 0.95, 1.0)) {
+    keep_plausible(points, plain, *work);
+    return creased;
+  }
   result.features_left_out = static_cast<Index>(result.features.size());
   result.features.clear();
   work.emplace(std::move(plain));

@@ -28,6 +28,8 @@ constexpr int kMostRounds = 20;
 /// In diagonals, about: control points of a sound surface stay nearer. Others are of a system that was nearly singular,
 /// and their surface may have lost its tangent planes and with them its energy.
 constexpr double kFarthest = 20.0;
+/// Of the rounds before the last, which only give lengths.
+constexpr double kReferenceTolerance = 1e-4;
 
 void require_options(const FairOptions& options, Index vertices) {
   const auto refuse = [](const std::string& what) { throw Error(ErrorCode::BadArgument, what); };
@@ -114,15 +116,19 @@ std::optional<Values> plain_control(const Topology& topology, const Scheme& sche
 /// Rounds of references, in the unit frame.
 class FairSolve {
  public:
-  FairSolve(const FineMesh& fine, Index original_count, const FairOptions& options, Scalars position_weights,
+  FairSolve(const FineMesh& fine, const Values& targets, const FairOptions& options, Scalars position_weights,
             const Progress& progress)
-      : fine_(fine),
+      : targets_(targets),
         options_(options),
         position_weights_(std::move(position_weights)),
         energy_(SurfacePatches(fine.topology, fine.scheme), options.energy, kShapeQuadrature,
                 progress_within(progress, 0.0, 0.8)),
         limit_(fine.topology, fine.scheme),
-        system_(limit_, original_count, position_weights_) {
+        system_(limit_, static_cast<Index>(targets.rows()), position_weights_) {
+    if (options.normals.size() > 0) {
+      const Values nothing = Values::Zero(system_.to_control().cols(), 3);
+      normals_ = FairNormals(limit_, options.normals, system_.to_control(), system_.control(nothing, targets));
+    }
     report_progress(progress, 1.0);
   }
 
@@ -132,14 +138,20 @@ class FairSolve {
 
   /// The control points after all rounds. lengths: the first reference. plain: where the search starts, with its
   /// normals turned, if there is one.
-  Values run(const Values& targets, const Values& lengths, const std::optional<Values>& plain, FairReport& report,
-             const Progress& progress);
+  Values run(const Values& lengths, const std::optional<Values>& plain, FairReport& report, const Progress& progress);
 
  private:
-  double objective(const Values& control, const Values& targets) const;
-  bool improve(const Values& least, const Values& targets, Values& control, double& level) const;
+  /// The control points of the fairest surface so far, if there is one, and its objective().
+  struct Best {
+    std::optional<Values> control = {};
+    double level = 0.0;
+  };
+  double objective(const Values& control) const;
+  bool improve(const Values& least, Best& best) const;
+  bool search(const Values& reference, double tolerance, Best& best, FairReport& report, const Progress& progress);
+  void turn_opposed(const Values& model, Best& best, FairReport& report, const Progress& progress);
 
-  FineMesh fine_;
+  const Values& targets_;
   const FairOptions& options_;
   Scalars position_weights_;
   ShapeEnergy energy_;
@@ -149,65 +161,81 @@ class FairSolve {
 };
 
 /// What is to be least, by the surface's own lengths.
-double FairSolve::objective(const Values& control, const Values& targets) const {
+double FairSolve::objective(const Values& control) const {
   double sum = energy_.energy(control);
   if (position_weights_.size() == 0) return sum;
-  const Buffer<double> errors = row_errors(limit_, control, targets);
+  const Buffer<double> errors = row_errors(limit_, control, targets_);
   for (std::size_t v = 0; v < errors.size(); ++v) sum += position_weights_[v] * errors[v] * errors[v];
   return sum;
 }
 
 /// The least of the quadratic energy need not have less energy in its own lengths. On the way to it from control points
 /// that meet the same conditions there may be some that have: all of the way, or a half, a quarter, an eighth.
-bool FairSolve::improve(const Values& least, const Values& targets, Values& control, double& level) const {
+bool FairSolve::improve(const Values& least, Best& best) const {
   for (const double step : {1.0, 0.5, 0.25, 0.125}) {
-    Values trial = control + step * (least - control);
+    Values trial = *best.control + step * (least - *best.control);
     if (!(trial.cwiseAbs().maxCoeff() < kFarthest)) continue;
-    const double reached = objective(trial, targets);
-    if (!(reached < level)) continue;
-    control = std::move(trial);
-    level = reached;
+    const double reached = objective(trial);
+    if (!(reached < best.level)) continue;
+    best = {std::move(trial), reached};
     return true;
   }
   return false;
 }
 
-Values FairSolve::run(const Values& targets, const Values& lengths, const std::optional<Values>& plain,
-                      FairReport& report, const Progress& progress) {
-  if (options_.normals.size() > 0) {
-    const Values nothing = Values::Zero(system_.to_control().cols(), 3);
-    normals_ = FairNormals(limit_, options_.normals, system_.to_control(), system_.control(nothing, targets));
+/// A round: the least of the quadratic energy in the lengths of `reference`. False where it is no better.
+bool FairSolve::search(const Values& reference, double tolerance, Best& best, FairReport& report,
+                       const Progress& progress) {
+  const ShapeEnergy::Matrix matrix = energy_.matrix(reference, progress_within(progress, 0.0, 0.3));
+  const StopRule stop{tolerance, options_.max_iterations, progress_within(progress, 0.4, 0.95)};
+  Values unknowns = system_.unknowns(best.control ? *best.control : reference);
+  report.solve.append(system_.minimise(matrix, targets_, normals_, stop, unknowns), ", ");
+  Values least = system_.control(unknowns, targets_);
+  if (best.control) return improve(least, best);
+  best = {std::move(least), 0.0};
+  best.level = objective(*best.control);
+  return true;
+}
+
+/// The conditions of normals also allow the opposite ones. Where a surface has these, it gets the model's tangents.
+void FairSolve::turn_opposed(const Values& model, Best& best, FairReport& report, const Progress& progress) {
+  constexpr int kMostTimes = 4;
+  for (int time = 0; time < kMostTimes; ++time) {
+    Values unknowns = system_.unknowns(*best.control);
+    if (normals_.hold_opposed(unknowns, system_.unknowns(model)) == 0) return;
+    report.kept_plain = false;
+    normals_.meet(unknowns);
+    best.control = system_.control(unknowns, targets_);
+    best.level = objective(*best.control);
+    search(*best.control, options_.tolerance, best, report, progress);
   }
-  std::optional<Values> control;
+}
+
+Values FairSolve::run(const Values& lengths, const std::optional<Values>& plain, FairReport& report,
+                      const Progress& progress) {
+  Best best;
   if (plain) {
     Values unknowns = system_.unknowns(*plain);
     normals_.meet(unknowns);
-    control = system_.control(unknowns, targets);
+    best.control = system_.control(unknowns, targets_);
+    best.level = objective(*best.control);
   }
-  double level = control ? objective(*control, targets) : 0.0;
-  report.kept_plain = control.has_value();
-  StopRule stop;
-  stop.tolerance = options_.tolerance;
-  stop.max_iterations = options_.max_iterations;
+  report.kept_plain = plain.has_value();
   for (int round = 0; round < options_.rounds; ++round) {
+    const bool is_last = round + 1 == options_.rounds;
+    const double tolerance = is_last ? options_.tolerance : std::max(options_.tolerance, kReferenceTolerance);
+    const Values reference = round == 0 ? lengths : *best.control;
     const Progress of_round =
         progress_within(progress, static_cast<double>(round) / options_.rounds, (round + 1.0) / options_.rounds);
-    const Values& reference = round == 0 || !control ? lengths : *control;
-    const ShapeEnergy::Matrix matrix = energy_.matrix(reference, progress_within(of_round, 0.0, 0.3));
-    stop.progress = progress_within(of_round, 0.4, 0.95);
-    Values unknowns = system_.unknowns(control ? *control : lengths);
-    report.solve.append(system_.minimise(matrix, targets, normals_, stop, unknowns), ", ");
-    Values least = system_.control(unknowns, targets);
-    if (!control) {
-      level = objective(least, targets);
-      control = std::move(least);
-    } else if (improve(least, targets, *control, level)) {
+    if (search(reference, tolerance, best, report, of_round)) {
       report.kept_plain = false;
     } else if (round > 0) {
       break;
     }
   }
-  return system_.control(system_.unknowns(*control), targets);
+  turn_opposed(plain ? *plain : lengths, best, report, progress_within(progress, 1.0, 1.0));
+  report.energy = position_weights_.size() == 0 ? best.level : energy_.energy(*best.control);
+  return system_.control(system_.unknowns(*best.control), targets_);
 }
 
 /// Angles between the normals wanted and those of the surface.
@@ -262,12 +290,11 @@ FairInterpolant interpolate_fairly(const Topology& topology, const Scheme& schem
   if (options.smoothing > 0.0) {
     weights = smoothing_weights(topology, wanted, options.energy, options.smoothing * frame.scale);
   }
-  FairSolve solve(fine, topology.vertex_count(), options, std::move(weights), progress_within(progress, 0.1, 0.2));
+  FairSolve solve(fine, wanted, options, std::move(weights), progress_within(progress, 0.1, 0.2));
   FairReport report;
   report.levels = levels;
-  Values control = solve.run(wanted, start.values, plain, report, progress_within(progress, 0.2, 0.95));
+  Values control = solve.run(start.values, plain, report, progress_within(progress, 0.2, 0.95));
   report.plain_energy = plain ? solve.energy(*plain) : std::numeric_limits<double>::quiet_NaN();
-  report.energy = solve.energy(control);
   report.diagonal = frame.diagonal;
   const double unit = std::pow(frame.scale, 2 * order_of(options.energy) - 4);
   report.plain_energy *= unit;

@@ -34,7 +34,7 @@ struct FairOptions {
   /// which have several normals or none, are left out.
   Values normals = {};
   int rounds = 2;           ///< references one after the other, 1 to 20
-  double tolerance = 1e-6;  ///< the energy is within its square, about, of the least, relative to the plain one's
+  double tolerance = 1e-5;  ///< the energy is within its square, about, of the least, relative to the plain one's
   int max_iterations = 2000;
 };
 
@@ -62,7 +62,7 @@ struct FairInterpolant {
 };
 
 /// targets: V-by-3, row i for vertex i, finite. Catmull-Clark and Loop. Without smoothing and normals the energy is at
-/// most that of the plain surface. Some 60 microseconds a vertex and round with one refinement, 500 with two; more
+/// most that of the plain surface. Some 40 microseconds a vertex and round with one refinement, 250 with two; more
 /// where many vertices are irregular. Throws Error(BadArgument) for the Butterflies, BoundaryRule::None and options out
 /// of range, Error(NotTriangles, BadShape, NotFinite, TooLarge, Cancelled).
 FairInterpolant interpolate_fairly(const Topology& topology, const Scheme& scheme, ConstValuesRef targets,

@@ -1,5 +1,6 @@
 #include "batten/interpolate/fair_normals.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <utility>
@@ -14,6 +15,7 @@ namespace {
 
 /// Singular values below this share of the largest are zero: tangents that are parallel whatever the unknowns.
 constexpr double kNoTangent = 1e-9;
+constexpr std::ptrdiff_t kConditionBlock = 512;
 
 /// Creases have a normal on each side, corners a cone of them.
 bool has_one_normal(const LimitMatrix& limit, Index vertex, VertexRing& ring) {
@@ -32,12 +34,13 @@ FairNormals::FairNormals(const LimitMatrix& limit, ConstValuesRef normals,
     if (normals.row(v).isZero(0.0) || !has_one_normal(limit, v, ring)) continue;
     const Eigen::RowVector3d normal = normals.row(v).normalized();
     VertexWeights entries;  // of both tangents: the column's number twice, plus the tangent's
-    Eigen::Vector2d values(0.0, 0.0);
+    Condition condition;
+    condition.constant.setZero();
     for (int t = 0; t < 2; ++t) {
       const TileValue tangent = t == 0 ? TileValue::TangentU : TileValue::TangentV;
       visit_vertex_limit(refined, limit.scheme(), tangent, refined.vertex_half_edge(v),
                          [&](Index vertex, double weight) {
-                           values[t] -= weight * normal.dot(constant.row(vertex));
+                           condition.constant.row(t) += weight * constant.row(vertex);
                            for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator entry(to_control, vertex);
                                 entry; ++entry) {
                              entries.emplace_back(2 * static_cast<Index>(entry.col()) + t, weight * entry.value());
@@ -45,7 +48,6 @@ FairNormals::FairNormals(const LimitMatrix& limit, ConstValuesRef normals,
                          });
     }
     merge(entries);
-    Condition condition;
     condition.normal = normal;
     for (const auto& [place, weight] : entries) {
       if (condition.columns.empty() || condition.columns.back() != place / 2) condition.columns.push_back(place / 2);
@@ -56,32 +58,62 @@ FairNormals::FairNormals(const LimitMatrix& limit, ConstValuesRef normals,
       while (condition.columns[column] != place / 2) ++column;
       rows(place % 2, column) = weight;
     }
-    // Rows become orthonormal: U S W^T heights = values is W^T heights = S^-1 U^T values.
+    // Rows become orthonormal: U S W^T unknowns = tangents - constant is W^T unknowns = S^-1 U^T (tangents - constant).
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeThinU | Eigen::ComputeThinV);
     const auto rank = (svd.singularValues().array() > kNoTangent * std::max(1e-300, svd.singularValues()[0])).count();
     if (rank < 2) continue;  // no tangent plane
-    condition.rows = svd.matrixV().leftCols(rank).transpose();
-    condition.values = (svd.matrixU().transpose() * values).head(rank).cwiseQuotient(svd.singularValues().head(rank));
+    condition.rows = svd.matrixV().leftCols(2).transpose();
+    condition.to_rows = svd.singularValues().cwiseInverse().asDiagonal() * svd.matrixU().transpose();
+    condition.values = -condition.to_rows * condition.constant;
+    condition.directions = normal.transpose() * normal;
     conditions_.push_back(std::move(condition));
     vertices_.push_back(v);
   }
 }
 
+FairNormals::Tangents FairNormals::product(const Condition& condition, const Values& unknowns) {
+  Tangents sum = Tangents::Zero();
+  for (std::size_t j = 0; j < condition.columns.size(); ++j) {
+    sum += condition.rows.col(static_cast<Eigen::Index>(j)) * unknowns.row(condition.columns[j]).head<3>();
+  }
+  return sum;
+}
+
+FairNormals::Tangents FairNormals::tangents(const Condition& condition, const Values& unknowns) {
+  return condition.to_rows.inverse() * product(condition, unknowns) + condition.constant;
+}
+
+Index FairNormals::hold_opposed(const Values& unknowns, const Values& model) {
+  Index count = 0;
+  for (Condition& condition : conditions_) {
+    const Tangents opposed = tangents(condition, unknowns);
+    if (opposed.row(0).cross(opposed.row(1)).dot(condition.normal) >= 0.0) continue;
+    const Tangents wanted = tangents(condition, model);
+    const Eigen::Vector3d normal = wanted.row(0).cross(wanted.row(1)).transpose();
+    const auto turn = Eigen::Quaterniond::FromTwoVectors(normal, condition.normal.transpose());
+    const Tangents turned = (turn.toRotationMatrix() * wanted.transpose()).transpose();
+    condition.values = condition.to_rows * (turned - condition.constant);
+    condition.directions.setIdentity();
+    ++count;
+  }
+  return count;
+}
+
 void FairNormals::move(Values& unknowns, double values_factor) const {
-  parallel_for(count(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    for (std::ptrdiff_t i = begin; i < end; ++i) {
-      const Condition& condition = conditions_[static_cast<std::size_t>(i)];
-      Eigen::VectorXd missing = values_factor * condition.values;
-      for (std::size_t j = 0; j < condition.columns.size(); ++j) {
-        missing -=
-            condition.rows.col(static_cast<Eigen::Index>(j)) * condition.normal.dot(unknowns.row(condition.columns[j]));
-      }
-      for (std::size_t j = 0; j < condition.columns.size(); ++j) {
-        unknowns.row(condition.columns[j]) +=
-            condition.rows.col(static_cast<Eigen::Index>(j)).dot(missing) * condition.normal;
-      }
-    }
-  });
+  parallel_for(
+      count(),
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        for (std::ptrdiff_t i = begin; i < end; ++i) {
+          const Condition& condition = conditions_[static_cast<std::size_t>(i)];
+          const Tangents missing =
+              (values_factor * condition.values - product(condition, unknowns)) * condition.directions;
+          for (std::size_t j = 0; j < condition.columns.size(); ++j) {
+            unknowns.row(condition.columns[j]) +=
+                condition.rows.col(static_cast<Eigen::Index>(j)).transpose() * missing;
+          }
+        }
+      },
+      kConditionBlock);
 }
 
 void FairNormals::meet(Values& unknowns) const { move(unknowns, 1.0); }

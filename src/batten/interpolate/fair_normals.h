@@ -3,7 +3,10 @@
 /// Two tangents t_1, t_2 of the surface at a vertex are sums of the control points around it. They are perpendicular to
 /// n where n . t_k = 0: two conditions on the heights n . P_j. After two refinements no control point has a say in the
 /// tangents at two original vertices, so that each vertex's conditions can be met by itself.
+///
+/// The normal may then be -n. Where it is, the tangents themselves are wanted: four conditions more.
 #pragma once
+#include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <vector>
 
@@ -32,13 +35,23 @@ class FairNormals {
   /// Takes from a step of the unknowns what would break them: an orthogonal projection.
   void project(Values& step) const;
 
+  /// Wherever these unknowns have the normal -n, the tangents of `model`, turned so that their normal is n, become
+  /// conditions. Returns at how many vertices.
+  Index hold_opposed(const Values& unknowns, const Values& model);
+
  private:
+  using Tangents = Eigen::Matrix<double, 2, 3>;
   struct Condition {
     Eigen::RowVector3d normal;
     std::vector<Index> columns;  ///< of unknowns
     Eigen::MatrixXd rows;        ///< two, orthonormal
-    Eigen::VectorXd values;      ///< what rows * heights shall be
+    Eigen::Matrix2d to_rows;     ///< tangents = to_rows^-1 (rows * unknowns) + constant
+    Tangents constant;
+    Tangents values;             ///< what rows * unknowns shall be, in the directions that count:
+    Eigen::Matrix3d directions;  ///< the projection onto n, or onto everything
   };
+  static Tangents product(const Condition& condition, const Values& unknowns);
+  static Tangents tangents(const Condition& condition, const Values& unknowns);
   void move(Values& unknowns, double values_factor) const;
 
   std::vector<Condition> conditions_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "batten/energy/congruence.h"
 #include "batten/refine/sparse_rows.h"
 #include "batten/solve/incomplete_factor.h"
 #include "batten/solve/krylov.h"
@@ -98,7 +99,7 @@ Values FairSystem::control(const Values& unknowns, ConstValuesRef targets) const
 SolveReport FairSystem::minimise(const Matrix& energy, ConstValuesRef targets, const FairNormals& normals,
                                  const StopRule& stop, Values& unknowns) const {
   normals.meet(unknowns);
-  Matrix reduced = transposed_ * Matrix(energy * to_control_);
+  Matrix reduced = congruence(energy, to_control_);
   Values gradient;
   double level = 0.0;
   {
