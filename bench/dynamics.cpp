@@ -25,14 +25,14 @@ double processor_seconds(const std::function<void()>& work) {
   return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
-std::shared_ptr<const Force> springs_of(const ElasticSurface& surface, Index count) {
+std::shared_ptr<const Force> springs_of(const ElasticSurface& surface, Index count, double stiffness) {
   std::vector<PointSprings::Spring> springs;
   const Index faces = surface.patches().base().face_count();
   for (Index i = 0; i < count; ++i) {
     const double angle = 2.4 * i;
     const Eigen::Vector3d target(2.0 * std::cos(angle), 2.0 * std::sin(angle), std::cos(1.7 * i));
     const auto face = static_cast<Index>(std::int64_t{i} * faces / count);
-    springs.push_back({{face, 0.3, 0.6}, stay_at(target), 5.0});
+    springs.push_back({{face, 0.3, 0.6}, stay_at(target), stiffness});
   }
   return std::make_shared<PointSprings>(surface, springs);
 }
@@ -52,7 +52,7 @@ void add_steps(const Job& job, MarkdownTable& table) {
       seconds_of([&] { surface = std::make_unique<ElasticSurface>(Topology(mesh), choose_scheme(mesh), mesh.points); });
   std::vector<std::shared_ptr<const Force>> forces;
   if (job.springs > 0) {
-    forces.push_back(springs_of(*surface, job.springs));
+    forces.push_back(springs_of(*surface, job.springs, 5.0));
   } else {
     forces.push_back(std::make_shared<Gravity>(*surface, Eigen::Vector3d(0.0, 0.0, -9.81)));
     forces.push_back(std::make_shared<Contact>(*surface, plane_obstacle({0.0, 0.0, -0.42}, {0.0, 0.0, 1.0})));
@@ -103,9 +103,9 @@ void add_paper(int levels, MarkdownTable& table) {
   options.rest = RestModel::Point;
   options.measure = ElasticMeasure::Parameters;
   options.cutoff_levels = 4;
-  options.material.damping = {10.0};
+  options.material.damping = {4.0};
   const ElasticSurface surface(fine.topology, choose_scheme(box), fine.values, options);
-  const auto force = springs_of(surface, 4);
+  const auto force = springs_of(surface, 4, 200.0);
   ForceSum sum;
   const Points still = Points::Zero(surface.rest().rows(), 3);
   sum.force = still;
@@ -117,7 +117,7 @@ void add_paper(int levels, MarkdownTable& table) {
   };
   ours();
   constexpr double kStep = 1.0 / 30.0;
-  const double tolerance = 1e-6 * surface.diagonal();
+  const double tolerance = 1e-4 * surface.diagonal();
   int steps = 0;
   const auto paper = [&] { steps = paper_steps(surface, sum.springs.front(), goal.positions, kStep, tolerance); };
   const std::vector<double> seconds = in_turn({ours, paper}, 3);
@@ -135,12 +135,12 @@ std::string dynamics_section() {
     add_steps(job, steps);
   }
   MarkdownTable paper({"control points", "equilibrium, ms", "the paper's steps, ms", "their number", "ratio"});
-  for (const int levels : {2, 3, 4}) add_paper(levels, paper);
+  for (const int levels : {2, 3}) add_paper(levels, paper);
   return "## Elastic surfaces\n\nSteps of 1/60 s by backward Euler, two rounds each, in the rest shape's lengths, "
          "faces "
          "turning. The first step factors the system.\n\n" +
          steps.text() +
-         "\nA cube refined 2, 3 and 4 times, four springs, the paper's energy: from rest to within 1e-6 of the "
+         "\nA cube refined 2 and 3 times, four springs, the paper's energy: from rest to within 1e-4 of the "
          "diagonal "
          "of the equilibrium, by `find_equilibrium` and by the paper's formula (31) with steps of 1/30 s, element sums "
          "to level 4 and conjugate gradients without a preconditioner.\n\n" +

@@ -21,7 +21,7 @@ enum class TimeScheme {
 
 /// How a step's linear system is solved.
 enum class MotionSolver {
-  Auto,      ///< Direct up to 30,000 control points
+  Auto,      ///< Direct up to 150,000 control points
   Direct,    ///< sparse Cholesky, factored once; conjugate gradients for what changes from step to step
   Iterative  ///< conjugate gradients with an incomplete factor
 };

@@ -13,7 +13,7 @@ namespace {
 
 using Matrix = ElasticSurface::Matrix;
 
-constexpr Index kMostDirect = 30000;
+constexpr Index kMostDirect = 150000;
 /// r, relative to the mean of S's diagonal.
 constexpr double kPinStiffness = 1e6;
 constexpr int kMostPinSolves = 8;

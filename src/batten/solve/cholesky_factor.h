@@ -3,33 +3,40 @@
 #include <Eigen/SparseCore>
 
 #include "batten/buffer.h"
-#include "batten/solve/lower_factor.h"
+#include "batten/double4.h"
+#include "batten/solve/elimination.h"
 #include "batten/types.h"
 
 namespace batten {
 
 /// L L^T = P A P^T of a sparse symmetric positive definite matrix, with an order P that keeps L sparse (approximate
-/// minimum degree; Eigen::SimplicialLLT). Const calls are safe from several threads; serial. For the stiffness of n
-/// control points on quads L has some 25 log2(n) entries a row, of 12 bytes.
+/// minimum degree, Amestoy, Davis and Duff 1996, key ADD96, as Eigen has it). Built front by front (multifrontal, Duff
+/// and Reid 1983, key DR83), with dense blocks. Const calls are safe from several threads; the same bits for any
+/// number of threads. For the stiffness of n control points on quads L has some 25 log2(n) entries a row, of 8 bytes;
+/// while it is built, up to as much again.
 class CholeskyFactor {
  public:
   using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-  /// Both triangles of the matrix are there.
+  /// Both triangles of the matrix are there, and its whole diagonal.
   explicit CholeskyFactor(const Matrix& matrix);
 
   /// False where a pivot was not positive: the matrix is not positive definite, and solve() must not be called.
   bool positive() const { return positive_; }
   /// The least pivot, relative to the matrix's own diagonal there: about 1e-16 where the matrix is singular.
   double least_pivot() const { return least_pivot_; }
-  std::size_t entry_count() const { return lower_.rows.size(); }
+  std::size_t entry_count() const { return entries_.size(); }
 
   /// x = A^-1 b, N-by-k each.
   void solve(const Values& b, Values& x) const;
 
  private:
-  Buffer<int> order_;  ///< row i of A is row order_[i] of L
-  LowerFactor lower_;
+  void factor(const Matrix& matrix);
+  void solve_four(Buffer<Double4>& x) const;
+
+  Elimination elimination_;
+  Buffer<std::size_t> starts_;  ///< of each supernode's columns of L, from its first row down
+  Buffer<double> entries_;
   bool positive_ = false;
   double least_pivot_ = 0.0;
 };
