@@ -8,6 +8,7 @@
 #include "batten/limit/butterfly_normals.h"
 #include "batten/limit/ring_limit.h"
 #include "batten/mesh/checked_values.h"
+#include "batten/mesh/vertex_fans.h"
 #include "batten/parallel/parallel.h"
 #include "batten/refine/child_topology.h"
 
@@ -49,9 +50,13 @@ LimitMatrix::LimitMatrix(const Topology& topology, const Scheme& scheme, LimitOp
   }
   kinds_.resize(static_cast<std::size_t>(topology.vertex_count()));
   face_counts_.resize(static_cast<std::size_t>(topology.vertex_count()));
+  const Buffer<Index> counts = vertex_face_counts(topology);
   const auto classify_block = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     VertexRing ring;
-    for (auto v = static_cast<Index>(begin); v < end; ++v) classify(v, ring);
+    for (auto v = static_cast<Index>(begin); v < end; ++v) {
+      face_counts_[v] = static_cast<std::uint8_t>(std::min(255, counts[v]));
+      classify(v, ring);
+    }
   };
   parallel_for(topology.vertex_count(), classify_block, kDefaultBlock, progress_within(progress, 0.0, 0.5));
   special_offsets_.push_back(0);
@@ -62,19 +67,7 @@ LimitMatrix::LimitMatrix(const Topology& topology, const Scheme& scheme, LimitOp
   }
 }
 
-int LimitMatrix::count_faces(Index vertex) const {
-  if (topology_.uniform_face_size() != 4) return topology_.vertex_face_count(vertex);
-  int count = 0;
-  const Index start = topology_.vertex_half_edge(vertex);
-  for (Index h = start; h >= 0; ++count) {
-    if (h == start && count > 0) break;
-    h = topology_.twin((h & ~3) | ((h + 3) & 3));
-  }
-  return count;
-}
-
 void LimitMatrix::classify(Index vertex, VertexRing& ring) {
-  face_counts_[vertex] = static_cast<std::uint8_t>(std::min(255, count_faces(vertex)));
   LimitRow row = LimitRow::Smooth;
   const bool plain_triangles =
       scheme_.kind != SchemeKind::CatmullClark || scheme_.triangle_rule == TriangleRule::Catmark;
@@ -193,8 +186,8 @@ void LimitMatrix::apply_columns(ConstValuesRef values, ValuesRef result, Buffer<
         continue;
       }
       const Weights weights = smooth_weights(v, face_count(v));
-      topology_.for_each_outgoing(v, [&](Index h) {
-        add(target, weights.edge, in + topology_.destination(h) * stride);
+      for_each_spoke(topology_, v, [&](Index h, Index destination) {
+        add(target, weights.edge, in + destination * stride);
         if (quads) {
           add(target, weights.face, face_means.data() + static_cast<std::ptrdiff_t>(topology_.face(h)) * columns);
         }

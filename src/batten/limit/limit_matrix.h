@@ -88,7 +88,6 @@ class LimitMatrix {
     double edge;
     double face;
   };
-  int count_faces(Index vertex) const;
   void classify(Index vertex, VertexRing& ring);
   void add_special_row(Index vertex, VertexRing& ring);
   Weights compute_weights(int valence, double alpha) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "batten/mesh/vertex_fans.h"
 #include "batten/parallel/parallel.h"
 
 namespace batten {
@@ -59,6 +60,7 @@ void count_valences(const Topology& topology, MeshSummary& summary) {
     Histogram inside;
     Histogram at_boundary;
   };
+  const Buffer<Index> counts = vertex_face_counts(topology);
   Part all = parallel_reduce(
       topology.vertex_count(), Part(),
       [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
@@ -66,7 +68,7 @@ void count_valences(const Topology& topology, MeshSummary& summary) {
         for (auto v = static_cast<Index>(begin); v < end; ++v) {
           if (topology.is_isolated(v)) continue;
           const bool open = topology.is_boundary_vertex(v);
-          ++(open ? part.at_boundary : part.inside)[topology.vertex_face_count(v) + (open ? 1 : 0)];
+          ++(open ? part.at_boundary : part.inside)[counts[v] + (open ? 1 : 0)];
         }
         return part;
       },

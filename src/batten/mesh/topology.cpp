@@ -9,6 +9,7 @@
 
 #include "batten/error.h"
 #include "batten/mesh/check.h"
+#include "batten/mesh/vertex_fans.h"
 #include "batten/parallel/parallel.h"
 
 namespace batten {
@@ -164,12 +165,6 @@ void match_twins(const SpokeTable& table, TopologyTables& tables, const Progress
         }
       },
       1 << 13, progress);
-}
-
-Index previous_half_edge(const TopologyTables& tables, Index h) {
-  if (tables.uniform_face_size == 4) return (h & ~3) | ((h + 3) & 3);
-  const Index f = tables.faces[h];
-  return h == tables.face_offsets[f] ? tables.face_offsets[f + 1] - 1 : h - 1;
 }
 
 /// Finds where each vertex's fan starts. Returns false if one turn does not visit all faces of a vertex.

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "batten/mesh/vertex_fans.h"
+
 namespace batten {
 
 Index isolated_count(const Topology& topology) {
@@ -14,9 +16,10 @@ Index isolated_count(const Topology& topology) {
 
 Scalars vertex_valences(const Topology& topology) {
   Scalars field = Scalars::Zero(topology.vertex_count());
+  const Buffer<Index> counts = vertex_face_counts(topology);
   for (Index v = 0; v < topology.vertex_count(); ++v) {
     if (topology.is_isolated(v)) continue;
-    field[v] = (topology.is_boundary_vertex(v) ? 2.0 : 1.0) * topology.vertex_face_count(v);
+    field[v] = (topology.is_boundary_vertex(v) ? 2.0 : 1.0) * counts[v];
   }
   return field;
 }
