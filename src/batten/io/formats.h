@@ -20,7 +20,8 @@ Mesh read_xyz(const Source& source);
 Mesh read_gltf(const Source& source);
 
 /// The writers do not check the mesh: require_writable (write_check.h) must be called first.
-void write_obj(OutputFile& file, const Mesh& mesh);
+/// `libraries` are the material files that the OBJ file names.
+void write_obj(OutputFile& file, const Mesh& mesh, const std::vector<std::string>& libraries);
 void write_ply(OutputFile& file, const Mesh& mesh, Encoding encoding);
 void write_off(OutputFile& file, const Mesh& mesh);
 void write_stl(OutputFile& file, const Mesh& mesh, Encoding encoding);

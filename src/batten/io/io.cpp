@@ -6,6 +6,7 @@
 #include "batten/error.h"
 #include "batten/io/formats.h"
 #include "batten/io/gzip.h"
+#include "batten/io/obj_library.h"
 #include "batten/io/write_check.h"
 #include "batten/progress.h"
 
@@ -17,8 +18,8 @@ struct Format {
   const char* extension;
   /// Null for formats that are only written.
   Mesh (*read)(const io::Source& source);
-  /// Null for formats that are only read.
-  void (*write)(io::OutputFile& file, const Mesh& mesh, const WriteOptions& options);
+  /// Null for formats that are only read. `path` is that of the file when it is complete.
+  void (*write)(const std::string& path, io::OutputFile& file, const Mesh& mesh, const WriteOptions& options);
   /// What its programs mostly use.
   UpAxis usual_up;
 };
@@ -27,7 +28,13 @@ io::Encoding encoding_of(const WriteOptions& options) {
   return options.binary ? io::Encoding::Binary : io::Encoding::Text;
 }
 
-void write_glb(io::OutputFile& file, const Mesh& mesh, const WriteOptions& options) {
+void write_obj(const std::string& path, io::OutputFile& file, const Mesh& mesh, const WriteOptions& /*options*/) {
+  const io::ObjLibrary library(path, mesh);
+  io::write_obj(file, mesh, library.libraries());
+  library.write();
+}
+
+void write_glb(const std::string& /*path*/, io::OutputFile& file, const Mesh& mesh, const WriteOptions& options) {
 #ifdef BATTEN_WITH_GLTF
   io::write_glb(file, mesh, io::up_axis_to_write(mesh, options.up));
 #else
@@ -47,26 +54,27 @@ Mesh read_gltf(const io::Source& source) {
 }
 
 constexpr Format kFormats[] = {
-    {"obj", io::read_obj,
-     [](io::OutputFile& file, const Mesh& mesh, const WriteOptions&) { io::write_obj(file, mesh); }, UpAxis::Y},
+    {"obj", io::read_obj, write_obj, UpAxis::Y},
     {"ply", io::read_ply,
-     [](io::OutputFile& file, const Mesh& mesh, const WriteOptions& options) {
+     [](const std::string&, io::OutputFile& file, const Mesh& mesh, const WriteOptions& options) {
        io::write_ply(file, mesh, encoding_of(options));
      },
      UpAxis::Y},
     {"off", io::read_off,
-     [](io::OutputFile& file, const Mesh& mesh, const WriteOptions&) { io::write_off(file, mesh); }, UpAxis::Y},
+     [](const std::string&, io::OutputFile& file, const Mesh& mesh, const WriteOptions&) { io::write_off(file, mesh); },
+     UpAxis::Y},
     {"stl", io::read_stl,
-     [](io::OutputFile& file, const Mesh& mesh, const WriteOptions& options) {
+     [](const std::string&, io::OutputFile& file, const Mesh& mesh, const WriteOptions& options) {
        io::write_stl(file, mesh, encoding_of(options));
      },
      UpAxis::Z},
     {"xyz", io::read_xyz,
-     [](io::OutputFile& file, const Mesh& mesh, const WriteOptions&) { io::write_xyz(file, mesh); }, UpAxis::Z},
+     [](const std::string&, io::OutputFile& file, const Mesh& mesh, const WriteOptions&) { io::write_xyz(file, mesh); },
+     UpAxis::Z},
     {"glb", read_gltf, write_glb, UpAxis::Y},
     {"gltf", read_gltf, nullptr, UpAxis::Y},
     {"usda", nullptr,
-     [](io::OutputFile& file, const Mesh& mesh, const WriteOptions& options) {
+     [](const std::string&, io::OutputFile& file, const Mesh& mesh, const WriteOptions& options) {
        io::write_usda(file, mesh, io::up_axis_to_write(mesh, options.up));
      },
      UpAxis::Y},
@@ -153,7 +161,7 @@ void write_mesh(const std::string& path, const Mesh& mesh, const WriteOptions& o
   io::require_writable(name, mesh);
   write_atomically(path, [&](const std::string& target) {
     io::OutputFile file(target, name, progress);
-    known.write(file, mesh, options);
+    known.write(path, file, mesh, options);
     file.close();
   });
 }

@@ -74,7 +74,9 @@ struct WriteOptions {
 
 /// Writes everything that the format can hold, as doubles that read back bit for bit.
 ///
-///   OBJ   everything except `scheme` and attributes with names other than "uv", "normal" and "color" (vertices)
+///   OBJ   everything except `scheme` and attributes with names other than "uv", "normal" and "color" (vertices). Base
+///         colours and images of glTF libraries go to mesh.mtl and image files beside mesh.obj; no file is replaced
+///         but a material file that Batten wrote: where another one is in the way, the name gets a number (wood-2.png)
 ///   PLY   points, faces, attributes at the vertices (k columns: NAME_0 and so on), "uv" at corners, images. Colours
 ///         are bytes and texcoord floats, as others expect; if these are not exact, doubles called exact_red,
 ///         exact_texcoord and so on follow

@@ -8,6 +8,7 @@
 #include "batten/io/formats.h"
 #include "batten/io/materials.h"
 #include "batten/io/ply_faces.h"
+#include "batten/output.h"
 
 namespace batten {
 
@@ -139,20 +140,29 @@ class Losses {
 
   void materials() {
     const std::vector<std::string>& libraries = mesh_.material_libraries;
-    if (is("obj")) {
-      return add(std::any_of(libraries.begin(), libraries.end(), io::is_gltf_library),
-                 "colours and images of materials");
-    }
+    if (is("obj")) return gltf_materials();
     if (place_.groups == KeptGroups::None) return add(!libraries.empty(), "materials");
     if (!is("glb")) return add(!libraries.empty(), "material library");
     const io::Materials found = io::find_materials(path_, mesh_);
     add(!libraries.empty(), found.empty() ? "material library" : "materials but for colours and images");
-    add(std::any_of(found.begin(), found.end(), [](const auto& named) { return lacks_image(named.second); }),
-        "images of materials");
+    add(lack_images(found), "images of materials");
+  }
+
+  /// What OBJ's material files have no place for; what stands in one stays there.
+  void gltf_materials() {
+    const std::vector<std::string>& libraries = mesh_.material_libraries;
+    if (std::none_of(libraries.begin(), libraries.end(), io::is_gltf_library)) return;
+    if (io::is_special_target(path_)) return add(true, "colours and images of materials");
+    const io::Materials found = io::find_materials(path_, mesh_);
+    add(true, found.empty() ? "material library" : "materials but for colours and images");
+    add(lack_images(found), "images of materials");
   }
 
   static bool lacks_image(const io::Material& material) {
     return (material.image != nullptr || !material.texture.empty()) && !io::has_image(material);
+  }
+  static bool lack_images(const io::Materials& materials) {
+    return std::any_of(materials.begin(), materials.end(), [](const auto& named) { return lacks_image(named.second); });
   }
 
   const std::string& path_;

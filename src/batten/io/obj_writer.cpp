@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "batten/io/formats.h"
-#include "batten/io/materials.h"
 #include "batten/io/text_output.h"
 #include "batten/io/write_check.h"
 
@@ -106,15 +105,13 @@ class FaceWriter {
 
 }  // namespace
 
-void write_obj(OutputFile& file, const Mesh& mesh) {
+void write_obj(OutputFile& file, const Mesh& mesh, const std::vector<std::string>& libraries) {
   const auto rows_of = [](const CornerList& list) {
     return list.attribute == nullptr ? 0 : list.attribute->values.rows();
   };
   file.expect_rows(mesh.vertex_count() + rows_of(corner_list(mesh, "uv")) + rows_of(corner_list(mesh, "normal")) +
                    static_cast<std::ptrdiff_t>(mesh.creases.size()) + mesh.face_count());
-  for (const std::string& library : mesh.material_libraries) {
-    if (!is_gltf_library(library)) file.write("mtllib " + library + "\n");
-  }
+  for (const std::string& library : libraries) file.write("mtllib " + library + "\n");
   write_points(file, mesh);
   write_list(file, "vt", corner_list(mesh, "uv"));
   write_list(file, "vn", corner_list(mesh, "normal"));
