@@ -36,6 +36,22 @@ TEST(SparseRows, CombineIsTheDenseProduct) {
   for (Index r = 0; r < rows.count(); ++r) EXPECT_EQ(combine(rows, r, points.data()), expected[r]) << r;
 }
 
+/// 1e16 + 1 is 1e16 in doubles, so the sum tells in which order it was formed.
+TEST(SparseRows, MergingAddsInTheOrderOfTheRowHoweverLong) {
+  for (const Index count : {2, 10, 11, 40}) {
+    VertexWeights row;
+    for (const double weight : {1e16, 1.0, -1e16}) {
+      for (Index v = count; v > 0; --v) row.emplace_back(v * 7 % 41, v % 2 == 0 ? weight : 1.0);
+    }
+    merge(row);
+    ASSERT_EQ(row.size(), static_cast<std::size_t>(count));
+    for (std::size_t i = 1; i < row.size(); ++i) EXPECT_LT(row[i - 1].first, row[i].first);
+    double sum = 0.0;
+    for (const auto& [vertex, weight] : row) sum += weight;
+    EXPECT_EQ(sum, 3.0 * static_cast<double>((count + 1) / 2)) << count;
+  }
+}
+
 TEST(SparseRows, ProductIsTheDenseProduct) {
   const SparseRows left = random_rows(50, 12, 2);
   const SparseRows right = random_rows(12, 9, 3);

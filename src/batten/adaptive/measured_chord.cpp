@@ -22,14 +22,13 @@ struct Distance {
 Distance distance_to_triangle(const Point& p, const std::array<Point, 3>& corners) {
   const Point normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
   bool inside = normal.squaredNorm() > 0.0;
-  double nearest = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 3; ++k) {
-    const Point& a = corners[k];
-    const Point& b = corners[(k + 1) % 3];
-    inside = inside && normal.cross(b - a).dot(p - a) >= 0.0;
-    nearest = std::min(nearest, distance_to_segment(p, a, b));
+    inside = inside && normal.cross(corners[(k + 1) % 3] - corners[k]).dot(p - corners[k]) >= 0.0;
   }
-  return {inside ? std::abs(normal.dot(p - corners[0])) / normal.norm() : nearest, inside};
+  if (inside) return {std::abs(normal.dot(p - corners[0])) / normal.norm(), true};
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k) nearest = std::min(nearest, distance_to_segment(p, corners[k], corners[(k + 1) % 3]));
+  return {nearest, false};
 }
 
 constexpr std::size_t kSampleCount = 7;
@@ -85,10 +84,11 @@ class Meter {
     }
   }
 
-  /// The greatest distance of samples of one of a face's triangles.
-  double worst_of(Index face, Index half, const Jet* samples) const {
-    double worst = 0.0;
-    for (std::size_t i = 0; i < kSampleCount; ++i) worst = std::max(worst, nearest(samples[i].point, face, half));
+  /// The greatest of `worst` and the distances of samples of one of a face's triangles.
+  double worst_of(Index face, Index half, const Jet* samples, double worst) const {
+    for (std::size_t i = 0; i < kSampleCount; ++i) {
+      worst = std::max(worst, nearest(samples[i].point, face, half, worst));
+    }
     return worst;
   }
 
@@ -99,10 +99,11 @@ class Meter {
             mesh_.points.row(v[half + 2]).transpose()};
   }
   /// The distance to the face's own triangle if the point is above it, otherwise to the nearest of the surrounding ones
-  /// too.
-  double nearest(const Point& p, Index face, Index half) const {
+  /// too. A distance of at most `enough` does not count: then some other such number may come out, without a look at
+  /// the many faces around a vertex of high valence.
+  double nearest(const Point& p, Index face, Index half, double enough) const {
     const Distance own = distance_to_triangle(p, triangle(face, half));
-    if (own.above) return own.value;
+    if (own.above || own.value <= enough) return own.value;
     double least = own.value;
     const Double4 at{p[0], p[1], p[2], 0.0};
     for (Index c = mesh_.face_offsets[face]; c < mesh_.face_offsets[face + 1]; ++c) {
@@ -114,6 +115,7 @@ class Meter {
         for (Index h = 0; h + 2 < mesh_.face_size(other); ++h) {
           least = std::min(least, distance_to_triangle(p, triangle(other, h)).value);
         }
+        if (least <= enough) return least;
       }
     }
     return least;
@@ -161,7 +163,7 @@ double measured_chord(const LimitSurface& surface, const AdaptiveMesh& mesh, con
           for (auto f = static_cast<Index>(begin); f < end; ++f) {
             const Jet* samples = jets.data() + starts[f];
             for (Index half = 0; half + 2 < mesh.mesh.face_size(first + f); ++half, samples += kSampleCount) {
-              worst_of_block = std::max(worst_of_block, meter.worst_of(first + f, half, samples));
+              worst_of_block = meter.worst_of(first + f, half, samples, worst_of_block);
             }
           }
           return worst_of_block;

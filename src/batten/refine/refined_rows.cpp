@@ -12,6 +12,8 @@ namespace {
 /// A row in the making.
 class WeightSum {
  public:
+  WeightSum() { row_.reserve(kUsual); }
+
   void add(Index vertex) { add(1.0, vertex); }
   void add(double weight, Index vertex) { row_.emplace_back(vertex, weight); }
   void add(const WeightSum& sum) { add(1.0, sum); }
@@ -27,6 +29,8 @@ class WeightSum {
   }
 
  private:
+  static constexpr std::size_t kUsual = 16;  ///< entries, so that most sums ask for memory once
+
   VertexWeights row_;
 };
 

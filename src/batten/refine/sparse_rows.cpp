@@ -4,8 +4,27 @@
 
 namespace batten {
 
+namespace {
+
+/// Rows are mostly short, and std::stable_sort asks for memory each time.
+void sort_by_vertex(VertexWeights& row) {
+  constexpr std::size_t kShort = 32;
+  if (row.size() > kShort) {
+    std::stable_sort(row.begin(), row.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    return;
+  }
+  for (std::size_t i = 1; i < row.size(); ++i) {
+    const auto moved = row[i];
+    std::size_t hole = i;
+    for (; hole > 0 && moved.first < row[hole - 1].first; --hole) row[hole] = row[hole - 1];
+    row[hole] = moved;
+  }
+}
+
+}  // namespace
+
 void merge(VertexWeights& row) {
-  std::stable_sort(row.begin(), row.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  sort_by_vertex(row);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < row.size(); ++i) {
     if (kept > 0 && row[kept - 1].first == row[i].first) {
