@@ -111,7 +111,7 @@ void write_animated(const Run& run, const Morph& morph, Job& job) {
   const int levels = run.arguments.levels >= 0 ? run.arguments.levels : std::min(3, picture_levels(run.topology));
   ProgressBar bar("refining", common.quiet);
   const MovingSurface surface = morph_surface(run.topology, run.scheme, run.mesh, morph, levels, run.frames,
-                                             run.arguments.seconds, bar.callback());
+                                              run.arguments.seconds, bar.callback());
   ProgressBar writing("writing", common.quiet);
   write_animation(common.output, surface.mesh, surface.targets, {common.output_format, true, job.up},
                   writing.callback());
