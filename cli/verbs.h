@@ -3,8 +3,8 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/arguments.h"
-#include "cli/simulate_arguments.h"
 #include "cli/fit_arguments.h"
+#include "cli/simulate_arguments.h"
 
 namespace batten::cli {
 
