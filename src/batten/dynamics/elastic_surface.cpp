@@ -2,11 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 
 #include "batten/dynamics/turning_faces.h"
+#include "batten/energy/face_coefficients.h"
 #include "batten/energy/shape_energy.h"
 #include "batten/energy/surface_energy.h"
 #include "batten/error.h"
@@ -23,23 +23,6 @@ namespace batten {
 namespace {
 
 using FaceCoefficients = std::vector<double>;
-
-void require_coefficients(const FaceCoefficients& coefficients, Index face_count, const std::string& name) {
-  if (coefficients.size() != 1 && coefficients.size() != static_cast<std::size_t>(face_count)) {
-    throw Error(ErrorCode::BadShape, "there are " + std::to_string(coefficients.size()) + " values of the " + name +
-                                         ", but the mesh has " + std::to_string(face_count) +
-                                         " faces; give one for all faces or one a face");
-  }
-  for (std::size_t f = 0; f < coefficients.size(); ++f) {
-    const std::string which = "the " + name + " of face " + std::to_string(f);
-    if (!std::isfinite(coefficients[f])) throw Error(ErrorCode::NotFinite, which + " is not finite");
-    if (coefficients[f] < 0.0) throw Error(ErrorCode::BadArgument, which + " is negative; give zero or more");
-  }
-}
-
-double of_face(const FaceCoefficients& coefficients, Index face) {
-  return coefficients[coefficients.size() == 1 ? 0 : static_cast<std::size_t>(face)];
-}
 
 FaceCoefficients scaled(const FaceCoefficients& coefficients, double factor) {
   FaceCoefficients result = coefficients;
@@ -182,8 +165,8 @@ void ElasticSurface::Parts::make_mass(const Progress& progress) {
     by_density.density.resize(static_cast<std::size_t>(ratios.size()));
     by_damping.density.resize(static_cast<std::size_t>(ratios.size()));
     for (Index f = 0; f < ratios.size(); ++f) {
-      by_density.density[static_cast<std::size_t>(f)] = ratios[f] * of_face(material().density, f);
-      by_damping.density[static_cast<std::size_t>(f)] = ratios[f] * of_face(material().damping, f);
+      by_density.density[static_cast<std::size_t>(f)] = ratios[f] * coefficient_of(material().density, f);
+      by_damping.density[static_cast<std::size_t>(f)] = ratios[f] * coefficient_of(material().damping, f);
     }
   }
   mass = SurfaceEnergy(patches, by_density).matrix(EnergyKind::Mass, progress_within(progress, 0.0, 0.5));
@@ -293,7 +276,7 @@ FaceCoefficients of_children(const FaceCoefficients& coefficients, const Topolog
   if (coefficients.size() == 1) return coefficients;
   FaceCoefficients result(static_cast<std::size_t>(child.face_count()));
   for (Index f = 0; f < child.face_count(); ++f) {
-    result[static_cast<std::size_t>(f)] = of_face(coefficients, quads ? parent.face(f) : f / 4);
+    result[static_cast<std::size_t>(f)] = coefficient_of(coefficients, quads ? parent.face(f) : f / 4);
   }
   return result;
 }

@@ -1,11 +1,11 @@
 #include "batten/energy/surface_energy.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <string>
 
 #include "batten/energy/energy_elements.h"
+#include "batten/energy/face_coefficients.h"
 #include "batten/energy/matrix_rows.h"
 #include "batten/error.h"
 #include "batten/mesh/checked_values.h"
@@ -19,23 +19,6 @@ namespace {
 constexpr int kMostCutoffLevels = 24;
 constexpr std::ptrdiff_t kVertexBlock = 512;
 
-void require_coefficients(const std::vector<double>& coefficients, Index face_count, const std::string& name) {
-  if (coefficients.size() != 1 && coefficients.size() != static_cast<std::size_t>(face_count)) {
-    throw Error(ErrorCode::BadShape, "there are " + std::to_string(coefficients.size()) + " values of the " + name +
-                                         ", but the mesh has " + std::to_string(face_count) +
-                                         " faces; give one for all faces or one a face");
-  }
-  for (std::size_t f = 0; f < coefficients.size(); ++f) {
-    if (!std::isfinite(coefficients[f])) {
-      throw Error(ErrorCode::NotFinite, "the " + name + " of face " + std::to_string(f) + " is not finite");
-    }
-    if (coefficients[f] < 0.0) {
-      throw Error(ErrorCode::BadArgument, "the " + name + " of face " + std::to_string(f) +
-                                              " is negative; give zero or more, so that no energy is negative");
-    }
-  }
-}
-
 EnergyOptions checked(const EnergyOptions& options, const SurfacePatches& patches) {
   const Index faces = patches.topology().face_count();
   require_coefficients(options.density, faces, "density");
@@ -47,10 +30,6 @@ EnergyOptions checked(const EnergyOptions& options, const SurfacePatches& patche
                                             " levels, not " + std::to_string(levels));
   }
   return options;
-}
-
-double coefficient_of(const std::vector<double>& coefficients, Index face) {
-  return coefficients[coefficients.size() == 1 ? 0 : static_cast<std::size_t>(face)];
 }
 
 /// The transposed matrix; `rows` has `columns` columns.
