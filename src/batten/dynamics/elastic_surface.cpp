@@ -143,8 +143,8 @@ struct ElasticSurface::Parts {
     return rest_in;
   }
 
-  Matrix by_control(Matrix of_base) const {
-    if (!patches.has_first_step()) return of_base;
+  /// S^T K S, K being over the base.
+  Matrix by_control(const Matrix& of_base) const {
     const Matrix half = of_base * first_step;
     const Matrix whole = first_step_transposed * half;
     return 0.5 * (whole + Matrix(whole.transpose()));  // symmetric to the last bit
@@ -189,7 +189,11 @@ void ElasticSurface::Parts::measure_lengths(const Points& base_rest, const Progr
   Matrix stretch = add(ShapeEnergyKind::Stretch, material().tension, progress_within(progress, 0.0, 0.4));
   const Matrix bending = add(ShapeEnergyKind::Bending, material().rigidity, progress_within(progress, 0.4, 1.0));
   add_matrix(bending, stretch);
-  stiffness = by_control(std::move(stretch));
+  if (patches.has_first_step()) {
+    stiffness = by_control(stretch);
+  } else {
+    stiffness.swap(stretch);
+  }
 }
 
 void ElasticSurface::Parts::measure_parameters(const Points& base_rest, const Progress& progress) {

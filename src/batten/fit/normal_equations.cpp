@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "batten/parallel/parallel.h"
 #include "batten/solve/krylov.h"
@@ -54,8 +53,8 @@ Eigen::Matrix3d matrix_of(const Form& form) {
 
 }  // namespace
 
-NormalEquations::NormalEquations(Matrix energy)
-    : energy_(std::move(energy)),
+NormalEquations::NormalEquations(const Matrix& energy)
+    : energy_(energy),
       blocks_(static_cast<std::size_t>(energy_.nonZeros())),
       right_(Values::Zero(energy_.rows(), 3)) {}
 

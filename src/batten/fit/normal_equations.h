@@ -3,7 +3,6 @@
 #pragma once
 #include <Eigen/SparseCore>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "batten/fit/squared_distance_model.h"
@@ -34,11 +33,11 @@ class NormalEquations {
 
   /// energy: V-by-V. It has an entry for each pair of control points that share a face's surface, as SurfaceEnergy's
   /// matrices have.
-  explicit NormalEquations(Matrix energy);
+  explicit NormalEquations(const Matrix& energy);
 
   const Matrix& energy() const { return energy_; }
   /// Another energy with its entries in the same places.
-  void set_energy(Matrix energy) { energy_ = std::move(energy); }
+  void set_energy(const Matrix& energy) { energy_ = energy; }
 
   /// rows: N-by-V; forms: N, weights included. O(N n^2) for n weights a row. Threaded.
   void assemble(const Matrix& rows, std::span<const Form> forms, const Points& offsets);
