@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "batten/parallel/parallel.h"
 #include "batten/solve/front.h"
 
 namespace batten {
@@ -70,7 +71,72 @@ CholeskyFactor::CholeskyFactor(const Matrix& matrix) : elimination_(matrix) {
                                            static_cast<std::size_t>(elimination_.row_count(s)));
   }
   entries_.resize(starts_.back());
+  split_tree();
+  list_places();
   factor(matrix);
+}
+
+/// Cuts the tree from its roots down until no part is large. The cut depends on the matrix alone.
+void CholeskyFactor::split_tree() {
+  constexpr double kShare = 1.0 / 16.0;
+  constexpr double kSmall = 2e5;  // entries that one thread goes through as fast as two
+  const int count = elimination_.count();
+  std::vector<Subtree> trees(static_cast<std::size_t>(count));
+  Buffer<double> work(static_cast<std::size_t>(count), 0.0);
+  Buffer<int> roots;
+  double total = 0.0;
+  for (int s = 0; s < count; ++s) {
+    trees[static_cast<std::size_t>(s)] = {s, s};
+    const double own = static_cast<double>(starts_[s + 1] - starts_[s]);
+    work[s] += own;
+    total += own;
+  }
+  for (int s = 0; s < count; ++s) {
+    const int parent = elimination_.parent(s);
+    if (parent < 0) {
+      roots.push_back(s);
+      continue;
+    }
+    work[parent] += work[s];
+    Subtree& tree = trees[static_cast<std::size_t>(parent)];
+    tree.first = std::min(tree.first, trees[static_cast<std::size_t>(s)].first);
+  }
+  const double most = std::max(kSmall, kShare * total);
+  while (!roots.empty()) {
+    const int root = roots.back();
+    roots.pop_back();
+    if (work[root] <= most) {
+      subtrees_.push_back(trees[static_cast<std::size_t>(root)]);
+      continue;
+    }
+    top_.push_back(root);
+    for (int s = root - 1; s >= trees[static_cast<std::size_t>(root)].first;
+         s = trees[static_cast<std::size_t>(s)].first - 1) {
+      roots.push_back(s);  // children end where the next one's subtree begins
+    }
+  }
+  std::sort(top_.begin(), top_.end());
+  std::sort(subtrees_.begin(), subtrees_.end(), [](const Subtree& a, const Subtree& b) { return a.root < b.root; });
+}
+
+void CholeskyFactor::list_places() {
+  const int count = elimination_.count();
+  inside_.resize(static_cast<std::size_t>(count));
+  for (int s = 0; s < count; ++s) inside_[s] = elimination_.row_count(s);
+  place_starts_.assign(static_cast<std::size_t>(count), 0);
+  Buffer<int> place_of(elimination_.order().size());
+  for (const Subtree& tree : subtrees_) {
+    const int end = elimination_.first_column(tree.root) + elimination_.width(tree.root);
+    const int* const below = elimination_.rows(tree.root) + elimination_.width(tree.root);
+    for (int i = 0; i < elimination_.row_count(tree.root) - elimination_.width(tree.root); ++i) place_of[below[i]] = i;
+    for (int s = tree.first; s <= tree.root; ++s) {
+      const int* const rows = elimination_.rows(s);
+      const int* const last = rows + elimination_.row_count(s);
+      inside_[s] = static_cast<int>(std::lower_bound(rows, last, end) - rows);
+      place_starts_[s] = places_.size();
+      for (const int* row = rows + inside_[s]; row < last; ++row) places_.push_back(place_of[*row]);
+    }
+  }
 }
 
 /// Children stand before their parents, and the subtrees one after the other: the rests are a stack.
@@ -110,46 +176,77 @@ void CholeskyFactor::factor(const Matrix& matrix) {
   positive_ = true;
 }
 
+/// Solves for the supernode's own columns; `below` becomes what they take from the rows below.
+void CholeskyFactor::eliminate(int node, Buffer<Double4>& x, Buffer<Double4>& below) const {
+  const int width = elimination_.width(node);
+  const int size = elimination_.row_count(node);
+  Double4* const own = x.data() + elimination_.first_column(node);
+  below.assign(static_cast<std::size_t>(size - width), Double4{});
+  for (int j = 0; j < width; ++j) {
+    const double* const weights = column(node, j);
+    const Double4 value = own[j] / weights[j];
+    own[j] = value;
+    for (int i = j + 1; i < width; ++i) own[i] -= weights[i] * value;
+    for (int i = width; i < size; ++i) below[i - width] += weights[i] * value;
+  }
+}
+
+/// Back substitution for the supernode's own columns.
+void CholeskyFactor::substitute(int node, Buffer<Double4>& x, Buffer<Double4>& below) const {
+  const int width = elimination_.width(node);
+  const int size = elimination_.row_count(node);
+  const int* const rows = elimination_.rows(node);
+  Double4* const own = x.data() + elimination_.first_column(node);
+  below.resize(static_cast<std::size_t>(size - width));
+  for (int i = width; i < size; ++i) below[i - width] = x[rows[i]];
+  for (int j = width - 1; j >= 0; --j) {
+    const double* const weights = column(node, j);
+    Double4 even = own[j];
+    Double4 odd{};
+    for (int i = j + 1; i < width; ++i) even -= weights[i] * own[i];
+    int i = width;
+    for (; i + 1 < size; i += 2) {
+      even -= weights[i] * below[i - width];
+      odd -= weights[i + 1] * below[i + 1 - width];
+    }
+    if (i < size) even -= weights[i] * below[i - width];
+    own[j] = (even + odd) / weights[j];
+  }
+}
+
 void CholeskyFactor::solve_four(Buffer<Double4>& x) const {
+  std::vector<Buffer<Double4>> outside(subtrees_.size());
+  parallel_for_each(static_cast<std::ptrdiff_t>(subtrees_.size()), [&](std::ptrdiff_t t) {
+    const Subtree& tree = subtrees_[static_cast<std::size_t>(t)];
+    Buffer<Double4>& sums = outside[static_cast<std::size_t>(t)];
+    sums.assign(static_cast<std::size_t>(elimination_.row_count(tree.root) - elimination_.width(tree.root)), Double4{});
+    Buffer<Double4> below;
+    for (int s = tree.first; s <= tree.root; ++s) {
+      eliminate(s, x, below);
+      const int width = elimination_.width(s);
+      const int* const rows = elimination_.rows(s);
+      for (int i = width; i < inside_[s]; ++i) x[rows[i]] -= below[i - width];
+      const int* const places = places_.data() + place_starts_[s];
+      for (int i = inside_[s]; i < elimination_.row_count(s); ++i) sums[places[i - inside_[s]]] += below[i - width];
+    }
+  });
+  for (std::size_t t = 0; t < subtrees_.size(); ++t) {
+    const int root = subtrees_[t].root;
+    const int* const rows = elimination_.rows(root) + elimination_.width(root);
+    for (std::size_t i = 0; i < outside[t].size(); ++i) x[rows[i]] -= outside[t][i];
+  }
   Buffer<Double4> below;
-  for (int s = 0; s < elimination_.count(); ++s) {
-    const int width = elimination_.width(s);
-    const int size = elimination_.row_count(s);
-    const int* const rows = elimination_.rows(s);
-    Double4* const own = x.data() + elimination_.first_column(s);
-    below.assign(static_cast<std::size_t>(size - width), Double4{});
-    for (int j = 0; j < width; ++j) {
-      const double* const column =
-          entries_.data() + starts_[s] + static_cast<std::size_t>(j) * static_cast<std::size_t>(size);
-      const Double4 value = own[j] / column[j];
-      own[j] = value;
-      for (int i = j + 1; i < width; ++i) own[i] -= column[i] * value;
-      for (int i = width; i < size; ++i) below[i - width] += column[i] * value;
-    }
-    for (int i = width; i < size; ++i) x[rows[i]] -= below[i - width];
+  for (const int s : top_) {
+    eliminate(s, x, below);
+    const int* const rows = elimination_.rows(s) + elimination_.width(s);
+    for (std::size_t i = 0; i < below.size(); ++i) x[rows[i]] -= below[i];
   }
-  for (int s = elimination_.count() - 1; s >= 0; --s) {
-    const int width = elimination_.width(s);
-    const int size = elimination_.row_count(s);
-    const int* const rows = elimination_.rows(s);
-    Double4* const own = x.data() + elimination_.first_column(s);
-    below.resize(static_cast<std::size_t>(size - width));
-    for (int i = width; i < size; ++i) below[i - width] = x[rows[i]];
-    for (int j = width - 1; j >= 0; --j) {
-      const double* const column =
-          entries_.data() + starts_[s] + static_cast<std::size_t>(j) * static_cast<std::size_t>(size);
-      Double4 even = own[j];
-      Double4 odd{};
-      for (int i = j + 1; i < width; ++i) even -= column[i] * own[i];
-      int i = width;
-      for (; i + 1 < size; i += 2) {
-        even -= column[i] * below[i - width];
-        odd -= column[i + 1] * below[i + 1 - width];
-      }
-      if (i < size) even -= column[i] * below[i - width];
-      own[j] = (even + odd) / column[j];
-    }
-  }
+  for (std::size_t i = top_.size(); i-- > 0;) substitute(top_[i], x, below);
+  parallel_for_each(static_cast<std::ptrdiff_t>(subtrees_.size()), [&](std::ptrdiff_t t) {
+    const Subtree& tree = subtrees_[static_cast<std::size_t>(t)];
+    Buffer<Double4> scratch;
+    for (int s = tree.root; s >= tree.first; --s) substitute(s, x, scratch);
+  });
 }
 
 void CholeskyFactor::solve(const Values& b, Values& x) const {
