@@ -54,9 +54,7 @@ Eigen::Matrix3d matrix_of(const Form& form) {
 }  // namespace
 
 NormalEquations::NormalEquations(const Matrix& energy)
-    : energy_(energy),
-      blocks_(static_cast<std::size_t>(energy_.nonZeros())),
-      right_(Values::Zero(energy_.rows(), 3)) {}
+    : energy_(energy), blocks_(static_cast<std::size_t>(energy_.nonZeros())), right_(Values::Zero(energy_.rows(), 3)) {}
 
 void NormalEquations::assemble(const Matrix& rows, std::span<const Form> forms, const Points& offsets) {
   const PlacesOfPoints places(rows);
