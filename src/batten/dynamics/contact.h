@@ -24,6 +24,7 @@ SignedDistance sphere_obstacle(const Eigen::Vector3d& center, double radius);
 /// All that lies outside a box, which keeps the body inside. Throws Error(BadArgument, NotFinite) unless low < high.
 SignedDistance box_inside_obstacle(const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 
+/// What touching an obstacle does, and where on the surface it is looked for.
 struct ContactOptions {
   double stiffness = 1e4;  ///< force per depth and area at rest, N/m^3, 0 or more
   double friction = 0.0;   ///< mu, 0 or more

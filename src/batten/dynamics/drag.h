@@ -18,6 +18,7 @@ inline WindField steady_wind(const Eigen::Vector3d& velocity) {
   return [velocity](const Eigen::Vector3d&, double) { return velocity; };
 }
 
+/// The air that a surface moves through, and how much it resists.
 struct DragOptions {
   WindField wind = {};      ///< empty: still air
   double normal = 1.0;      ///< force per area and speed against motion along the normal, kg/(m^2 s), 0 or more

@@ -26,6 +26,7 @@ enum class MotionSolver {
   Iterative  ///< conjugate gradients with an incomplete factor
 };
 
+/// How a body is moved through time.
 struct MotionOptions {
   TimeScheme scheme = TimeScheme::BackwardEuler;
   double step = 1.0 / 60.0;  ///< seconds
@@ -60,6 +61,7 @@ struct EquilibriumOptions {
   double tolerance = 1e-10;  ///< the greatest change of a round, relative to the diagonal
   int rounds = 2000;
 };
+/// How a search for equilibrium ended. Changes and forces are those of its last round.
 struct EquilibriumReport {
   int rounds = 0;
   int solver_iterations = 0;

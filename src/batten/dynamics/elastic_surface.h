@@ -37,6 +37,7 @@ enum class ElasticMeasure {
   Parameters  ///< by the faces' parameters, as in the paper: each quad is a unit square (energy/surface_energy.h)
 };
 
+/// What a body is made of, and what its elastic energy is measured by.
 struct ElasticOptions {
   ElasticMaterial material = {};
   RestModel rest = RestModel::Rotating;

@@ -9,6 +9,7 @@
 
 namespace batten {
 
+/// How strongly springs to the nearest places pull, and how widely each pull is spread.
 struct NearestSpringOptions {
   std::vector<double> stiffness{1.0};  ///< N/m, 0 or more: one for all springs, or one each
   /// Above 0 a spring pulls at the places around the nearest one, not at it alone, so that it makes no spike: at those

@@ -23,6 +23,7 @@ struct PlaceMotion {
 /// The force per area of the surface as it is, N/m^2.
 using PlaceFunction = std::function<Eigen::Vector3d(const PlaceMotion& motion)>;
 
+/// What a force given by a function is called, and at how many places it is asked for.
 struct PlaceForceOptions {
   std::string name = "place force";  ///< for messages
   /// Gauss points along a side of a face (surface/quadrature.h), 1 to 16. Empty: chosen by the size of the faces, so

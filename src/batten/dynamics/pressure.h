@@ -18,6 +18,7 @@ inline NumberPath always(double number) {
   return [number](double) { return number; };
 }
 
+/// The pressure inside a body: given, made by holding its volume, or the sum of both.
 struct PressureOptions {
   /// Inside less outside, N/m^2: positive pressure pushes along the outward normals. Empty: none.
   NumberPath pressure = {};

@@ -51,6 +51,7 @@ struct SceneNearestSprings {
   double stiffness = 1.0;  ///< N/m, of each
   double radius = 0.0;     ///< how wide each pull is spread over the surface
 };
+/// A constant acceleration of everything.
 struct SceneGravity {
   Eigen::Vector3d acceleration{0.0, 0.0, -9.81};  ///< m/s^2
 };
@@ -80,6 +81,7 @@ struct SceneObstacle {
   double friction = 0.0;                  ///< Coulomb's coefficient
   double thickness = 0.0;                 ///< the surface is kept so far away
 };
+/// One entry of a scene's list of forces.
 using SceneForce =
     std::variant<SceneSpring, SceneNearestSprings, SceneGravity, ScenePressure, SceneWind, SceneObstacle>;
 
@@ -95,6 +97,7 @@ struct ScenePin {
   ScenePlace at;
   ScenePath to;
 };
+/// One entry of a scene's list of what is held or led.
 using SceneSupport = std::variant<SceneHold, ScenePin>;
 
 /// The body does not move any more: the root mean square of its speed, and the greatest force on a control point that
@@ -105,6 +108,7 @@ struct SceneRest {
   std::optional<double> force;
 };
 
+/// How long the scene lasts, by what steps it goes, and when it is refined.
 struct SceneTime {
   double seconds = 1.0;
   MotionOptions motion;
@@ -115,6 +119,7 @@ struct SceneTime {
   int refine_at_rest = 0;         ///< so often, each time when it does not move any more
 };
 
+/// What is written of the motion.
 struct SceneOutput {
   double frames_per_second = 24.0;
   std::optional<int> levels;  ///< refinement of the surface that is written

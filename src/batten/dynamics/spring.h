@@ -11,6 +11,7 @@ namespace batten {
 /// 1/2 k |t - s|^2. Implicit: stable however stiff.
 class PointSprings : public Force {
  public:
+  /// One spring: where it is fixed to the body, and what it pulls to.
   struct Spring {
     SurfacePlace place;      ///< of the body's base (surface/limit_surface.h)
     PointPath target;        ///< where it pulls to, for each time
