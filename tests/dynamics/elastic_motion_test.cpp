@@ -254,6 +254,18 @@ TEST(ElasticMotion, RefiningInMidRunChangesNothingThatIsSeen) {
   EXPECT_LE((coarse_next.jet(place).point - there).norm(), 0.01 * surface.diagonal());
 }
 
+TEST(ElasticMotion, CannotRefineDerivativesPinnedInTriangles) {
+  const Mesh mesh = icosahedron();
+  const ElasticSurface surface(Topology(mesh), test::scheme_of(SchemeKind::Loop), mesh.points);
+  const ElasticState state = state_at_rest(surface);
+  Supports supports;
+  supports.pins.push_back({{3, 0.2, 0.3}, stay_at({0.1, 0.0, 0.0})});
+  EXPECT_EQ(refined_supports(surface, supports, state).pins.size(), 1u);
+  supports.pins.push_back({{3, 0.2, 0.3}, stay_at({0.1, 0.5, 0.0}), JetPart::Du});
+  test::expect_error([&] { refined_supports(surface, supports, state); }, ErrorCode::BadArgument,
+                     "pinned in a triangle");
+}
+
 /// A cube refined twice has the symmetries of the cube; pressure must not break one of them.
 TEST(ElasticMotion, KeepsTheSymmetryOfABalloon) {
   const Mesh mesh = cube();

@@ -166,6 +166,18 @@ TEST(ElasticSurface, RefiningKeepsMassAndEnergy) {
   });
 }
 
+TEST(ElasticSurface, RefiningKeepsTheCoefficientsOfFaces) {
+  const Mesh mesh = torus(6, 4);
+  ElasticOptions options;
+  options.material.density.assign(24, 0.0);
+  for (std::size_t f = 0; f < 24; ++f) options.material.density[f] = 1.0 + static_cast<double>(f);
+  const ElasticSurface surface(Topology(mesh), test::kCatmullClark, mesh.points, options);
+  const ElasticSurface child = surface.refined();
+  const std::vector<double>& finer = child.options().material.density;
+  ASSERT_EQ(finer.size(), 96u);
+  for (std::size_t f = 0; f < 96; ++f) EXPECT_EQ(finer[f], options.material.density[f / 4]) << f;
+}
+
 TEST(ElasticSurface, HasTheSameBitsOnAnyNumberOfThreads) {
   const Mesh mesh = torus(20, 12);
   const Points at = bent(mesh.points);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "batten/limit/limit_matrix.h"
+#include "batten/mesh/primitives.h"
 #include "batten/refine/refinement.h"
 #include "batten/surface/limit_surface.h"
 #include "support/shapes.h"
@@ -27,8 +29,25 @@ TEST(SurfacePlace, MapsBetweenLevelsWithoutMovingThePoint) {
           EXPECT_EQ(back.face, f);
           EXPECT_NEAR(back.u, u, 1e-15);
           EXPECT_NEAR(back.v, v, 1e-15);
+          const Eigen::Matrix2d change = refined_parameters(topology, place);
+          const Jet jet = fine.jet(there);
+          const Jet expected = coarse.jet(place);
+          EXPECT_LT((jet.du * change(0, 0) + jet.dv * change(1, 0) - expected.du).norm(), 1e-12);
+          EXPECT_LT((jet.du * change(0, 1) + jet.dv * change(1, 1) - expected.dv).norm(), 1e-12);
         }
       }
+    }
+  }
+}
+
+TEST(SurfacePlace, OfAVertexIsWhereItsLimitPositionIs) {
+  for (const auto& [mesh, scheme] : {std::pair{test::jittered(torus(7, 5), 0.1, 2), Scheme{}},
+                                     std::pair{test::jittered(icosahedron(), 0.1, 2), Scheme{SchemeKind::Loop}}}) {
+    const Topology topology(mesh);
+    const Values limits = LimitMatrix(topology, scheme).apply(mesh.points);
+    const LimitSurface surface(topology, scheme, mesh.points);
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+      EXPECT_LT((surface.jet(place_of_vertex(topology, v)).point.transpose() - limits.row(v)).norm(), 1e-13) << v;
     }
   }
 }

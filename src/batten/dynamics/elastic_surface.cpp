@@ -5,7 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "batten/dynamics/force.h"
 #include "batten/dynamics/turning_faces.h"
+#include "batten/energy/congruence.h"
 #include "batten/energy/face_coefficients.h"
 #include "batten/energy/shape_energy.h"
 #include "batten/energy/surface_energy.h"
@@ -13,7 +15,6 @@
 #include "batten/mesh/checked_values.h"
 #include "batten/mesh/measures.h"
 #include "batten/parallel/parallel.h"
-#include "batten/refine/refined_rows.h"
 #include "batten/refine/refinement.h"
 #include "batten/solve/sparse_product.h"
 #include "batten/surface/quadrature.h"
@@ -47,17 +48,6 @@ Scalars area_ratios(const SurfacePatches& patches, const Points& control) {
   }
   for (Index f = 0; f < areas.size(); ++f) areas[f] = parameters[f] > 0.0 ? areas[f] / parameters[f] : 0.0;
   return areas;
-}
-
-/// S of a base that is a first refinement.
-ElasticSurface::Matrix first_step_of(const SurfacePatches& patches) {
-  const SparseRows rows = refined_rows(patches.topology(), patches.scheme());
-  ElasticSurface::Matrix matrix(rows.count(), patches.topology().vertex_count());
-  matrix.resizeNonZeros(static_cast<Eigen::Index>(rows.columns.size()));
-  std::copy(rows.starts.begin(), rows.starts.end(), matrix.outerIndexPtr());
-  std::copy(rows.columns.begin(), rows.columns.end(), matrix.innerIndexPtr());
-  std::copy(rows.weights.begin(), rows.weights.end(), matrix.valuePtr());
-  return matrix;
 }
 
 /// to += what. In place where the entries are the same.
@@ -96,19 +86,15 @@ struct ElasticSurface::Parts {
   Matrix mass;
   Matrix damping;
   Matrix stiffness;
-  Matrix first_step;  ///< S, or empty
-  Matrix first_step_transposed;
-  Points linear_force;   ///< K R under Linear, or empty
-  TurningFaces turning;  ///< under Rotating
+  std::optional<PlaceRows> first_step;  ///< S, where the base is a first refinement
+  Points linear_force;                  ///< K R under Linear, or empty
+  TurningFaces turning;                 ///< under Rotating
 
   Parts(const SurfacePatches& patches_in, ConstValuesRef rest_in, ElasticOptions options_in, const Progress& progress)
       : patches(patches_in), options(std::move(options_in)), rest(checked(rest_in)) {
     const BoundingBox box = bounding_box(rest);
     diagonal = (box.high - box.low).stableNorm();
-    if (patches.has_first_step()) {
-      first_step = first_step_of(patches);
-      first_step_transposed = first_step.transpose();
-    }
+    if (patches.has_first_step()) first_step = first_step_rows(patches);
     make_mass(progress_within(progress, 0.0, 0.3));
     const Points base_rest = patches.base_values(rest);
     if (options.measure == ElasticMeasure::Lengths) {
@@ -143,12 +129,6 @@ struct ElasticSurface::Parts {
     return rest_in;
   }
 
-  /// S^T K S, K being over the base.
-  Matrix by_control(const Matrix& of_base) const {
-    const Matrix half = of_base * first_step;
-    const Matrix whole = first_step_transposed * half;
-    return 0.5 * (whole + Matrix(whole.transpose()));  // symmetric to the last bit
-  }
   void make_mass(const Progress& progress);
   void measure_lengths(const Points& base_rest, const Progress& progress);
   void measure_parameters(const Points& base_rest, const Progress& progress);
@@ -189,8 +169,8 @@ void ElasticSurface::Parts::measure_lengths(const Points& base_rest, const Progr
   Matrix stretch = add(ShapeEnergyKind::Stretch, material().tension, progress_within(progress, 0.0, 0.4));
   const Matrix bending = add(ShapeEnergyKind::Bending, material().rigidity, progress_within(progress, 0.4, 1.0));
   add_matrix(bending, stretch);
-  if (patches.has_first_step()) {
-    stiffness = by_control(stretch);
+  if (first_step) {
+    stiffness = congruence(stretch, first_step->rows);
   } else {
     stiffness.swap(stretch);
   }
@@ -239,12 +219,12 @@ void ElasticSurface::rest_force(ConstValuesRef positions, ValuesRef result) cons
   }
   Points of_base;
   parts_->turning.turn(patches().base_values(positions), &of_base);
-  if (!patches().has_first_step()) {
+  if (!parts_->first_step) {
     result = of_base;
     return;
   }
   Values product;
-  multiply(parts_->first_step_transposed, of_base, product);
+  multiply(parts_->first_step->transposed, of_base, product);
   result = product;
 }
 
@@ -275,16 +255,6 @@ double ElasticSurface::kinetic_energy(ConstValuesRef velocities) const {
 
 namespace {
 
-FaceCoefficients of_children(const FaceCoefficients& coefficients, const Topology& parent, const Topology& child,
-                             bool quads) {
-  if (coefficients.size() == 1) return coefficients;
-  FaceCoefficients result(static_cast<std::size_t>(child.face_count()));
-  for (Index f = 0; f < child.face_count(); ++f) {
-    result[static_cast<std::size_t>(f)] = coefficient_of(coefficients, quads ? parent.face(f) : f / 4);
-  }
-  return result;
-}
-
 Refinement first_refinement(const ElasticSurface& surface) {
   const Scheme& scheme = surface.patches().scheme();
   return Refinement(with_surface_holes(surface.topology(), scheme), scheme);
@@ -299,16 +269,14 @@ ElasticSurface ElasticSurface::refined(const Progress& progress) const {
   const bool halved = child.measure == ElasticMeasure::Parameters && !patches().has_first_step();
   for (FaceCoefficients* coefficients :
        {&child.material.density, &child.material.damping, &child.material.tension, &child.material.rigidity}) {
-    *coefficients = of_children(*coefficients, topology(), step.child(), patches().quads());
+    *coefficients = child_coefficients(*coefficients, topology(), patches().quads());
   }
   if (halved) {
     child.material.density = scaled(child.material.density, 0.25);
     child.material.damping = scaled(child.material.damping, 0.25);
     child.material.rigidity = scaled(child.material.rigidity, 4.0);
   }
-  Scheme scheme = patches().scheme();
-  scheme.alpha = 0.0;
-  return ElasticSurface(step.child(), scheme, step.apply(rest()), child, progress);
+  return ElasticSurface(step.child(), patches().scheme().after_first_step(), step.apply(rest()), child, progress);
 }
 
 ElasticState state_at_rest(const ElasticSurface& surface) {

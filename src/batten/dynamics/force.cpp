@@ -1,5 +1,8 @@
 #include "batten/dynamics/force.h"
 
+#include <algorithm>
+
+#include "batten/refine/refined_rows.h"
 #include "batten/surface/surface_weights.h"
 
 namespace batten {
@@ -7,6 +10,18 @@ namespace batten {
 PlaceRows place_rows(const SurfacePatches& patches, std::span<const SurfacePlace> places) {
   PlaceRows result;
   result.rows = SurfaceWeights(patches).rows(places);
+  result.transposed = result.rows.transpose();
+  return result;
+}
+
+PlaceRows first_step_rows(const SurfacePatches& patches) {
+  const SparseRows rows = refined_rows(patches.topology(), patches.scheme());
+  PlaceRows result;
+  result.rows.resize(rows.count(), patches.topology().vertex_count());
+  result.rows.resizeNonZeros(static_cast<Eigen::Index>(rows.columns.size()));
+  std::copy(rows.starts.begin(), rows.starts.end(), result.rows.outerIndexPtr());
+  std::copy(rows.columns.begin(), rows.columns.end(), result.rows.innerIndexPtr());
+  std::copy(rows.weights.begin(), rows.weights.end(), result.rows.valuePtr());
   result.transposed = result.rows.transpose();
   return result;
 }

@@ -24,6 +24,9 @@ struct PlaceRows {
   Matrix transposed;  ///< V-by-P
 };
 
+/// The rows of the base's points where the base is a first refinement (SurfacePatches::has_first_step()).
+PlaceRows first_step_rows(const SurfacePatches& patches);
+
 /// The rows of the points at places (surface/surface_weights.h). Throws Error(IndexOutOfRange, BadArgument) for places
 /// that do not exist.
 PlaceRows place_rows(const SurfacePatches& patches, std::span<const SurfacePlace> places);

@@ -4,9 +4,9 @@
 #include <string>
 #include <utility>
 
+#include "batten/energy/face_coefficients.h"
 #include "batten/mesh/moved_mesh.h"
 #include "batten/nearest/nearest_point.h"
-#include "batten/patch/corner_parameters.h"
 #include "batten/refine/refined_mesh.h"
 #include "batten/refine/refinement.h"
 
@@ -23,16 +23,6 @@ Points start_points(const ElasticScene& scene, const SceneMeshes& meshes) {
   return start.rowwise() + scene.move.transpose();
 }
 
-/// A number for each face of the refined mesh: that of the face that it lies in.
-std::vector<double> carry_to_children(const std::vector<double>& coefficients, const Mesh& mesh, SchemeKind kind) {
-  std::vector<double> carried;
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    const Index children = kind == SchemeKind::CatmullClark ? mesh.face_size(f) : 4;
-    carried.insert(carried.end(), static_cast<std::size_t>(children), coefficients[static_cast<std::size_t>(f)]);
-  }
-  return carried;
-}
-
 Scheme scene_scheme(const ElasticScene& scene, const Mesh& mesh) {
   Scheme scheme = choose_scheme(mesh);
   scheme.kind = scene.scheme.value_or(scheme.kind);
@@ -40,19 +30,13 @@ Scheme scene_scheme(const ElasticScene& scene, const Mesh& mesh) {
   return scheme;
 }
 
-/// The corner of a face where the surface has the vertex.
-SurfacePlace place_of_vertex(const SurfacePatches& patches, Index vertex) {
-  const Topology& base = patches.base();
-  if (vertex >= patches.topology().vertex_count() || base.is_isolated(vertex)) {
+SurfacePlace vertex_place(const SurfacePatches& patches, Index vertex) {
+  if (vertex >= patches.topology().vertex_count() || patches.base().is_isolated(vertex)) {
     throw Error(ErrorCode::IndexOutOfRange, "there is no vertex " + std::to_string(vertex) +
                                                 " on the surface; the mesh has vertices 0 to " +
                                                 std::to_string(patches.topology().vertex_count() - 1));
   }
-  const Index half_edge = base.vertex_half_edge(vertex);
-  const Index face = base.face(half_edge);
-  const Index corner = half_edge - base.face_begin(face);
-  const auto [u, v] = corner_parameters(base.face_size(face), corner);
-  return {face, u, v};
+  return place_of_vertex(patches.base(), vertex);
 }
 
 /// Finds the places of a scene on a body; nearest places are looked for in its rest shape.
@@ -61,7 +45,7 @@ class PlaceFinder {
   explicit PlaceFinder(const ElasticSurface& body) : body_(body) {}
   SurfacePlace find(const ScenePlace& place) {
     if (place.place) return checked(*place.place);
-    if (place.vertex) return place_of_vertex(body_.patches(), *place.vertex);
+    if (place.vertex) return vertex_place(body_.patches(), *place.vertex);
     if (!nearest_) nearest_.emplace(body_.patches(), body_.rest());
     return nearest_->nearest(*place.near).place;
   }
@@ -135,7 +119,7 @@ SceneBody scene_body(const ElasticScene& scene, const SceneMeshes& meshes, const
 
 ElasticOptions body_options(const ElasticScene& scene, const SceneMeshes& meshes) {
   ElasticOptions options = scene.body;
-  const SchemeKind kind = scene_scheme(scene, meshes.rest).kind;
+  const Scheme scheme = scene_scheme(scene, meshes.rest);
   const std::pair<const char*, std::vector<double>*> lists[] = {{"density", &options.material.density},
                                                                 {"damping", &options.material.damping},
                                                                 {"tension", &options.material.tension},
@@ -148,13 +132,9 @@ ElasticOptions body_options(const ElasticScene& scene, const SceneMeshes& meshes
                       std::to_string(meshes.rest.face_count()) + " faces; give one for all or one a face");
     }
     Topology topology(meshes.rest);
-    Mesh mesh = meshes.rest;
     for (int i = 0; i < scene.refine; ++i) {
-      *list = carry_to_children(*list, mesh, kind);
-      if (i + 1 == scene.refine) break;
-      RefinedMesh refined = refine_mesh(topology, scene_scheme(scene, meshes.rest), mesh, 1);
-      topology = refined.topology;
-      mesh = std::move(refined.mesh);
+      *list = child_coefficients(*list, topology, scheme.kind == SchemeKind::CatmullClark);
+      if (i + 1 < scene.refine) topology = Refinement(topology, scheme).child();
     }
   }
   return options;

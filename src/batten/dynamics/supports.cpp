@@ -8,7 +8,6 @@
 
 #include "batten/dynamics/force.h"
 #include "batten/error.h"
-#include "batten/patch/corner_parameters.h"
 #include "batten/refine/refined_rows.h"
 #include "batten/refine/refinement.h"
 
@@ -50,43 +49,17 @@ Supports hold_boundary(const ElasticSurface& surface) {
 
 namespace {
 
-/// How the parameters of a place on the refined mesh change with those of the place: entries 2, -2 and 0, or the
-/// identity where the mesh refined is the base.
-Eigen::Matrix2d parameter_change(const SurfacePatches& patches, const SurfacePlace& place) {
-  if (patches.has_first_step()) return Eigen::Matrix2d::Identity();
-  const SurfacePlace at = refined_place(patches.base(), place);
-  Eigen::Matrix2d change;
-  for (int i = 0; i < 2; ++i) {
-    // Towards the middle of the child, so as not to leave it.
-    double step = 0.0;
-    SurfacePlace moved = at;
-    for (const double trial : {1e-3, -1e-3}) {
-      SurfacePlace near = place;
-      (i == 0 ? near.u : near.v) += trial;
-      const bool inside = near.u >= 0.0 && near.v >= 0.0 && near.u <= 1.0 && near.v <= 1.0 &&
-                          (patches.quads() || near.u + near.v <= 1.0);
-      if (!inside) continue;
-      const SurfacePlace there = refined_place(patches.base(), near);
-      if (there.face != at.face) continue;
-      moved = there;
-      step = trial;
-      break;
-    }
-    if (step == 0.0) {
-      throw Error(ErrorCode::BadArgument,
-                  "a derivative is pinned between four faces of the refined surface, where it "
-                  "has none; pin it inside a face");
-    }
-    change(0, i) = std::round((moved.u - at.u) / step);
-    change(1, i) = std::round((moved.v - at.v) / step);
-  }
-  return change;
-}
-
 Supports::Pin refined_pin(const SurfacePatches& patches, const Supports::Pin& pin) {
   Supports::Pin result{place_on_refined(patches, pin.place), pin.path, pin.part};
   if (pin.part == JetPart::Point) return result;
-  const Eigen::Matrix2d change = parameter_change(patches, pin.place);
+  // Where the base is a first refinement, the parameters stay (place_on_refined()).
+  if (patches.has_first_step()) return result;
+  if (!patches.quads()) {
+    throw Error(ErrorCode::BadArgument,
+                "a derivative is pinned in a triangle, of whose smaller triangles none has both of its directions; "
+                "refine the body first, then pin derivatives");
+  }
+  const Eigen::Matrix2d change = refined_parameters(patches.base(), pin.place);
   // d/du = change(0, 0) d/da + change(1, 0) d/db, where one of the two is 0.
   const int of_u = change(0, 0) != 0.0 ? 0 : 1;
   const double by_u = change(of_u, 0);
@@ -124,10 +97,7 @@ Supports::Pin refined_pin(const SurfacePatches& patches, const Supports::Pin& pi
 /// The vertex on the surface, moving as its control point does.
 Supports::Pin pin_of_vertex(const ElasticSurface& body, const Supports::FixedPoint& point, const ElasticState& state) {
   const SurfacePatches& patches = body.patches();
-  const Index h = patches.base().vertex_half_edge(point.vertex);
-  const Index face = patches.base().face(h);
-  const auto corner = corner_parameters(patches.base().face_size(face), h - patches.base().face_begin(face));
-  const SurfacePlace place{face, corner[0], corner[1]};
+  const SurfacePlace place = place_of_vertex(patches.base(), point.vertex);
   Values at = SurfaceWeights(patches).rows({&place, 1}) * state.positions;
   const Eigen::Vector3d offset = at.row(0).transpose() - point.path(state.time);
   const PointPath path = [offset, lead = point.path](double time) -> Eigen::Vector3d { return offset + lead(time); };

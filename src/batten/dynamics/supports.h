@@ -47,7 +47,8 @@ Supports hold_boundary(const ElasticSurface& surface);
 
 /// The same supports on body.refined(), for the body as `state` has it. Control points of the refined mesh that depend
 /// on fixed ones alone are fixed where these lead them. Where a fixed point leads none, the place of its vertex on the
-/// surface is pinned instead: it stays where it is now, or moves along as the point did.
+/// surface is pinned instead: it stays where it is now, or moves along as the point did. Throws Error(BadArgument) for
+/// derivatives pinned in triangles: no smaller triangle has both of their directions.
 Supports refined_supports(const ElasticSurface& body, const Supports& supports, const ElasticState& state);
 
 }  // namespace batten

@@ -137,15 +137,7 @@ void SurfaceSamples::list_places() {
   elements_.list_vertices(patches_, points);
   starts_.assign(1, 0);
   for (Index e = 0; e < elements_.count(); ++e) starts_.push_back(starts_.back() + table(e).places.size());
-  if (!patches_.has_first_step()) return;
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Index v = 0; v < patches_.base().vertex_count(); ++v) {
-    for (const auto& [vertex, weight] : patches_.by_control({{v, 1.0}})) entries.emplace_back(v, vertex, weight);
-  }
-  base_rows_.emplace();
-  base_rows_->rows.resize(patches_.base().vertex_count(), patches_.topology().vertex_count());
-  base_rows_->rows.setFromTriplets(entries.begin(), entries.end());
-  base_rows_->transposed = base_rows_->rows.transpose();
+  if (patches_.has_first_step()) base_rows_ = first_step_rows(patches_);
 }
 
 Index SurfaceSamples::element_of(std::ptrdiff_t sample) const {

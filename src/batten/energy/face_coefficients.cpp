@@ -6,7 +6,7 @@
 
 namespace batten {
 
-void require_coefficients(const std::vector<double>& coefficients, Index face_count, const std::string& name) {
+void require_coefficients(std::span<const double> coefficients, Index face_count, const std::string& name) {
   if (coefficients.size() != 1 && coefficients.size() != static_cast<std::size_t>(face_count)) {
     throw Error(ErrorCode::BadShape, "there are " + std::to_string(coefficients.size()) + " values of the " + name +
                                          ", but the mesh has " + std::to_string(face_count) +
@@ -21,6 +21,16 @@ void require_coefficients(const std::vector<double>& coefficients, Index face_co
                                               " is negative; give zero or more, so that no energy is negative");
     }
   }
+}
+
+std::vector<double> child_coefficients(std::span<const double> coefficients, const Topology& parent, bool quads) {
+  if (coefficients.size() == 1) return {coefficients.begin(), coefficients.end()};
+  std::vector<double> result;
+  for (Index f = 0; f < parent.face_count(); ++f) {
+    const Index children = quads ? parent.face_size(f) : 4;
+    result.insert(result.end(), static_cast<std::size_t>(children), coefficient_of(coefficients, f));
+  }
+  return result;
 }
 
 }  // namespace batten

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "batten/energy/face_coefficients.h"
 #include "batten/energy/jet_tables.h"
 #include "batten/energy/matrix_rows.h"
 #include "batten/energy/shape_elements.h"
@@ -94,14 +95,10 @@ struct ShapeEnergy::Parts {
   Buffer<Index> rows_of(Index begin, Index end, Buffer<std::uint8_t>& marks) const;
   /// Of the control face that an element lies in.
   double factor(Index element, std::span<const double> face_factors) const {
-    return face_factors[face_factors.size() == 1 ? 0 : static_cast<std::size_t>(elements.control_face(element))];
+    return coefficient_of(face_factors, elements.control_face(element));
   }
   void require_factors(std::span<const double> face_factors) const {
-    const auto faces = static_cast<std::size_t>(patches.topology().face_count());
-    if (face_factors.size() == 1 || face_factors.size() == faces) return;
-    throw Error(ErrorCode::BadShape, "there are " + std::to_string(face_factors.size()) +
-                                         " factors, but the mesh has " + std::to_string(faces) +
-                                         " faces; give one for all faces or one a face");
+    require_coefficients(face_factors, patches.topology().face_count(), "factor");
   }
 };
 

@@ -57,9 +57,10 @@ class ShapeEnergy {
   /// p^T matrix(P) p without the matrix. Throws Error(BadShape, NotFinite).
   double energy(ConstValuesRef control) const;
 
-  /// The faces as elements over the vertices of the base (energy/face_elements.h).
+  /// For use inside the library: the faces as elements over the vertices of the base (energy/face_elements.h).
   const FaceElements& elements() const;
-  /// K_e P of each element e, with the reference P itself: three numbers for each of its vertices, element by element.
+  /// Likewise: K_e P of each element e, with the reference P itself: three numbers for each of its vertices, element by
+  /// element. Throws as matrix() does.
   Buffer<double> element_gradients(const Points& reference, std::span<const double> face_factors) const;
 
  private:

@@ -266,6 +266,8 @@ double SurfaceEnergy::energy(EnergyKind kind, ConstValuesRef control) const {
 const FaceElements& SurfaceEnergy::elements() const { return parts_->elements; }
 
 Buffer<double> SurfaceEnergy::element_gradients(EnergyKind kind, const Points& base_points) const {
+  require_vertex_rows(patches().base(), base_points);
+  require_finite(base_points, "base points");
   const EnergyElements& elements = parts_->elements;
   Buffer<double> gradients(3 * elements.vertices().size());
   parallel_for(

@@ -65,10 +65,10 @@ class SurfaceEnergy {
   /// E(P), summed over the columns. control: V-by-k. Throws Error(BadShape, NotFinite).
   double energy(EnergyKind kind, ConstValuesRef control) const;
 
-  /// The faces as elements over the vertices of the base (energy/face_elements.h).
+  /// For use inside the library: the faces as elements over the vertices of the base (energy/face_elements.h).
   const FaceElements& elements() const;
-  /// K_e P of each element e: three numbers for each of its vertices, element by element. base_points: of the base,
-  /// with three columns.
+  /// Likewise: K_e P of each element e, three numbers for each of its vertices, element by element. base_points: of the
+  /// base, with three columns. Throws Error(BadShape, NotFinite).
   Buffer<double> element_gradients(EnergyKind kind, const Points& base_points) const;
 
  private:
