@@ -197,17 +197,18 @@ bool FairSolve::search(const Values& reference, double tolerance, Best& best, Fa
   return true;
 }
 
-/// The conditions of normals also allow the opposite ones. Where a surface has these, it gets the model's tangents.
+/// The conditions of normals also allow the opposite ones. Where a surface has these, it gets the model's tangents, and
+/// the search goes on in the model's lengths; at last without a search, so that no normal is left opposite.
 void FairSolve::turn_opposed(const Values& model, Best& best, FairReport& report, const Progress& progress) {
-  constexpr int kMostTimes = 4;
-  for (int time = 0; time < kMostTimes; ++time) {
+  constexpr int kMostTimes = 6;
+  for (int time = 0; time <= kMostTimes; ++time) {
     Values unknowns = system_.unknowns(*best.control);
     if (normals_.hold_opposed(unknowns, system_.unknowns(model)) == 0) return;
     report.kept_plain = false;
     normals_.meet(unknowns);
     best.control = system_.control(unknowns, targets_);
     best.level = objective(*best.control);
-    search(*best.control, options_.tolerance, best, report, progress);
+    if (time < kMostTimes) search(model, options_.tolerance, best, report, progress);
   }
 }
 
@@ -232,8 +233,8 @@ Values FairSolve::run(const Values& lengths, const std::optional<Values>& plain,
     } else if (round > 0) {
       break;
     }
+    turn_opposed(lengths, best, report, progress_within(of_round, 1.0, 1.0));
   }
-  turn_opposed(plain ? *plain : lengths, best, report, progress_within(progress, 1.0, 1.0));
   report.energy = position_weights_.size() == 0 ? best.level : energy_.energy(*best.control);
   return system_.control(system_.unknowns(*best.control), targets_);
 }

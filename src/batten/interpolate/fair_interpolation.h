@@ -9,7 +9,7 @@
 ///
 /// After a refinement the limit position of an original vertex depends on no other original vertex, so that the
 /// targets' equations are solved for these exactly, and conjugate gradients find the others with an incomplete Cholesky
-/// factor (docs/decisions/011-fair-solver.md).
+/// factor, or if need be a whole one (docs/decisions/011-fair-solver.md).
 #pragma once
 #include <optional>
 

@@ -116,6 +116,58 @@ void FairNormals::move(Values& unknowns, double values_factor) const {
       kConditionBlock);
 }
 
+Values FairNormals::rows(const Values& unknowns) const {
+  Values result(2 * static_cast<Eigen::Index>(count()), 3);
+  parallel_for(
+      count(),
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        for (std::ptrdiff_t i = begin; i < end; ++i) {
+          const Condition& condition = conditions_[static_cast<std::size_t>(i)];
+          result.middleRows<2>(2 * i) = product(condition, unknowns) * condition.directions;
+        }
+      },
+      kConditionBlock);
+  return result;
+}
+
+void FairNormals::add_transposed(const Values& multipliers, Values& result) const {
+  parallel_for(
+      count(),
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        for (std::ptrdiff_t i = begin; i < end; ++i) {
+          const Condition& condition = conditions_[static_cast<std::size_t>(i)];
+          const Tangents pull = multipliers.middleRows<2>(2 * i) * condition.directions;
+          for (std::size_t j = 0; j < condition.columns.size(); ++j) {
+            result.row(condition.columns[j]) += condition.rows.col(static_cast<Eigen::Index>(j)).transpose() * pull;
+          }
+        }
+      },
+      kConditionBlock);
+}
+
+std::vector<Eigen::Matrix2d> FairNormals::stiffness(const Eigen::SparseMatrix<double, Eigen::RowMajor>& h) const {
+  std::vector<Eigen::Matrix2d> result(conditions_.size());
+  parallel_for(
+      count(),
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        Eigen::MatrixXd block;
+        for (std::ptrdiff_t i = begin; i < end; ++i) {
+          const Condition& condition = conditions_[static_cast<std::size_t>(i)];
+          const auto size = static_cast<Eigen::Index>(condition.columns.size());
+          block.resize(size, size);
+          for (Eigen::Index r = 0; r < size; ++r) {
+            for (Eigen::Index c = 0; c < size; ++c)
+              block(r, c) = h.coeff(condition.columns[static_cast<std::size_t>(r)],
+                                    condition.columns[static_cast<std::size_t>(c)]);
+          }
+          const Eigen::Matrix2d give = condition.rows * block.ldlt().solve(condition.rows.transpose());
+          result[static_cast<std::size_t>(i)] = give.inverse();
+        }
+      },
+      kConditionBlock);
+  return result;
+}
+
 void FairNormals::meet(Values& unknowns) const { move(unknowns, 1.0); }
 void FairNormals::project(Values& step) const { move(step, 0.0); }
 

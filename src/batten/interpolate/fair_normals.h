@@ -35,6 +35,15 @@ class FairNormals {
   /// Takes from a step of the unknowns what would break them: an orthogonal projection.
   void project(Values& step) const;
 
+  /// The conditions as rows C of unknowns: C x, two rows a condition, each three numbers in the directions that count.
+  /// The rows of a condition are orthonormal; no two conditions share an unknown.
+  Values rows(const Values& unknowns) const;
+  /// result += C^T multipliers.
+  void add_transposed(const Values& multipliers, Values& result) const;
+  /// Of each condition, the inverse of its rows' product R H^-1 R^T where all other unknowns stay: how stiff its
+  /// tangents are. H: over the unknowns, symmetric and positive definite.
+  std::vector<Eigen::Matrix2d> stiffness(const Eigen::SparseMatrix<double, Eigen::RowMajor>& h) const;
+
   /// Wherever these unknowns have the normal -n, the tangents of `model`, turned so that their normal is n, become
   /// conditions. Returns at how many vertices.
   Index hold_opposed(const Values& unknowns, const Values& model);

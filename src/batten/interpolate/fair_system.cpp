@@ -1,12 +1,13 @@
 #include "batten/interpolate/fair_system.h"
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "batten/energy/congruence.h"
 #include "batten/refine/sparse_rows.h"
+#include "batten/solve/cholesky_factor.h"
 #include "batten/solve/incomplete_factor.h"
 #include "batten/solve/krylov.h"
 #include "batten/solve/sparse_product.h"
@@ -17,10 +18,11 @@ namespace {
 
 using Matrix = FairSystem::Matrix;
 
-/// Where conjugate gradients need more iterations, as with long smoothing, the whole Cholesky factor takes less time
-/// than they do, for some 10,000 unknowns far less; for more than so many its time and memory grow too fast.
-constexpr int kFewIterations = 40;
-constexpr Eigen::Index kMostFactored = 40000;
+/// Where conjugate gradients need more iterations, as with long smoothing or with normals that do not suit the points,
+/// the whole Cholesky factor takes less time than they do, for some 10,000 unknowns far less; for more than so many its
+/// time and memory grow too fast.
+constexpr int few_iterations(Eigen::Index unknowns) { return unknowns <= 40000 ? 40 : 200; }
+constexpr Eigen::Index kMostFactored = 250000;
 
 /// Unknowns without an energy, such as the points around holes, keep their values: their equation is 1 x = 0.
 void hold_unused(Matrix& matrix) {
@@ -95,6 +97,76 @@ Values FairSystem::control(const Values& unknowns, ConstValuesRef targets) const
   return result;
 }
 
+namespace {
+
+/// Least x^T H x / 2 - b^T x over the x that keep the normals' conditions C x = 0, by steps from such an x.
+class ConstrainedLeast {
+ public:
+  ConstrainedLeast(const Matrix& h, const FairNormals& normals, const Values& b, const StopRule& stop)
+      : h_(h), normals_(normals), b_(b), stop_(stop) {}
+
+  /// Conjugate gradients among the x that keep the conditions.
+  SolveReport iterate(const LinearMap& precondition, int most, Values& x) const;
+  /// By the whole factor of H: its multipliers lambda, x = H^-1 (b - C^T lambda), from C H^-1 C^T lambda = C H^-1 b. A
+  /// tangent's moment bends the surface no farther than to the next points, which hold it, so that this matrix is
+  /// nearly its own diagonal blocks.
+  SolveReport solve_multipliers(const CholeskyFactor& factor, int most, Values& x) const;
+
+ private:
+  const Matrix& h_;
+  const FairNormals& normals_;
+  const Values& b_;
+  const StopRule& stop_;
+};
+
+SolveReport ConstrainedLeast::iterate(const LinearMap& precondition, int most, Values& x) const {
+  const LinearMap product = [&](const Values& of, Values& result) {
+    multiply(h_, of, result);
+    normals_.project(result);
+  };
+  const LinearMap projected = [&](const Values& of, Values& result) {
+    precondition(of, result);
+    normals_.project(result);
+  };
+  Values right = b_;
+  normals_.project(right);
+  StopRule within = stop_;
+  within.max_iterations = most;
+  return conjugate_gradients(product, projected, normals_.empty() ? Coefficients::EachColumn : Coefficients::Joint,
+                             right, x, within);
+}
+
+SolveReport ConstrainedLeast::solve_multipliers(const CholeskyFactor& factor, int most, Values& x) const {
+  const std::vector<Eigen::Matrix2d> stiffness = normals_.stiffness(h_);
+  const LinearMap give = [&](const Values& of, Values& result) {
+    Values pull = Values::Zero(x.rows(), x.cols());
+    normals_.add_transposed(of, pull);
+    Values moved;
+    factor.solve(pull, moved);
+    result = normals_.rows(moved);
+  };
+  const LinearMap precondition = [&](const Values& of, Values& result) {
+    for (std::size_t i = 0; i < stiffness.size(); ++i) {
+      const auto row = 2 * static_cast<Eigen::Index>(i);
+      result.middleRows<2>(row) = stiffness[i] * of.middleRows<2>(row);
+    }
+  };
+  Values free;
+  factor.solve(b_, free);
+  Values multipliers = Values::Zero(2 * static_cast<Eigen::Index>(normals_.count()), x.cols());
+  StopRule within = stop_;
+  within.max_iterations = most;
+  SolveReport report =
+      conjugate_gradients(give, precondition, Coefficients::Joint, normals_.rows(free), multipliers, within);
+  Values pull = Values::Zero(x.rows(), x.cols());
+  normals_.add_transposed(multipliers, pull);
+  factor.solve(b_ - pull, x);
+  normals_.project(x);
+  return report;
+}
+
+}  // namespace
+
 /// T^T K T y + W y = -T^T K C q + W q; solved for the step from the start, so that large coordinates cost no digits.
 SolveReport FairSystem::minimise(const Matrix& energy, ConstValuesRef targets, const FairNormals& normals,
                                  const StopRule& stop, Values& unknowns) const {
@@ -114,42 +186,30 @@ SolveReport FairSystem::minimise(const Matrix& energy, ConstValuesRef targets, c
     gradient.row(i) += position_weights_[i] * (unknowns.row(i) - targets.row(i));
   }
   hold_unused(reduced);
-  Values right = -gradient;
-  normals.project(right);
-  const auto product = [&](const Values& x, Values& y) {
-    multiply(reduced, x, y);
-    normals.project(y);
-  };
   StopRule within = stop;
   within.tolerance *= std::sqrt(std::max(0.0, level));
+  const Values right = -gradient;
+  const ConstrainedLeast least(reduced, normals, right, within);
   Values step = Values::Zero(unknowns.rows(), unknowns.cols());
-  const auto iterate = [&](const LinearMap& solve, int most) {
-    const auto precondition = [&](const Values& x, Values& y) {
-      solve(x, y);
-      normals.project(y);
-    };
-    within.max_iterations = most;
-    return conjugate_gradients(product, precondition, normals.empty() ? Coefficients::EachColumn : Coefficients::Joint,
-                               right, step, within);
-  };
-  const bool may_be_factored = normals.empty() && reduced.rows() <= kMostFactored;
-  const IncompleteFactor incomplete(reduced);
-  SolveReport report = iterate([&](const Values& x, Values& y) { incomplete.solve(x, y); },
-                               may_be_factored ? std::min(kFewIterations, stop.max_iterations) : stop.max_iterations);
-  if (!report.converged && may_be_factored && report.iterations < stop.max_iterations) {
-    const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> whole{Eigen::SparseMatrix<double>(reduced)};
-    const bool is_definite = whole.info() == Eigen::Success;
-    const LinearMap solve = [&](const Values& x, Values& y) {
-      if (is_definite) {
-        y = whole.solve(x);
-      } else {
-        incomplete.solve(x, y);
-      }
-    };
-    const Values before = step;
-    SolveReport rest = iterate(solve, stop.max_iterations - report.iterations);
-    if (is_definite) rest.method_name = "sparse Cholesky";
-    if (!rest.converged) step = before;  // nearly singular
+  const bool may_be_factored = reduced.rows() <= kMostFactored;
+  std::optional<IncompleteFactor> incomplete(reduced);
+  const LinearMap by_incomplete = [&](const Values& x, Values& y) { incomplete->solve(x, y); };
+  const int few = may_be_factored ? few_iterations(reduced.rows()) : stop.max_iterations;
+  SolveReport report = least.iterate(by_incomplete, std::min(few, stop.max_iterations), step);
+  const int left = stop.max_iterations - report.iterations;
+  if (!report.converged && may_be_factored && left > 0) {
+    const CholeskyFactor whole(reduced);
+    const LinearMap by_whole = [&](const Values& x, Values& y) { whole.solve(x, y); };
+    Values better = step;
+    SolveReport rest;
+    if (!whole.positive()) {  // to rounding
+      rest = least.iterate(by_incomplete, left, better);
+    } else {
+      incomplete.reset();
+      rest = normals.empty() ? least.iterate(by_whole, left, better) : least.solve_multipliers(whole, left, better);
+      rest.method_name = "sparse Cholesky";
+    }
+    if (rest.converged) step = better;
     report.append(rest, ", then ");
   }
   unknowns += step;
