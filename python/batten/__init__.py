@@ -1,0 +1,92 @@
+"""Smooth subdivision surfaces through data.
+
+A batten is the thin strip that shipbuilders bend through fixed points to draw a fair curve; this does it for surfaces::
+
+    import batten
+
+    cage = batten.interpolate(batten.read("shape.obj"))
+    print(cage.report)
+    batten.write("control.obj", cage.mesh)
+"""
+
+from . import _native
+from .errors import Error
+from .fitting import Fit, fit
+from .interpolation import Interpolant, Interpolator, Updates, interpolate
+from .mesh import CornerValues, Mesh, Repaired, check, read, repair, subdivide, triangulate, write
+from .reports import (
+    DenoiseReport,
+    DistanceSummary,
+    FairReport,
+    FitReport,
+    InterpolationReport,
+    Problem,
+    RepairChange,
+    SharpenReport,
+    UpdateReport,
+)
+from .series import Bands, Denoised, MeshSeries, Sharpened, bands, denoise, morph, sharpen
+from .surface import (
+    Curvature,
+    Distances,
+    LimitSurface,
+    Nearest,
+    NearestPoints,
+    SparseRows,
+    Tessellator,
+    distance,
+    limit_normals,
+    limit_positions,
+    surface_weights,
+    tessellate,
+)
+
+_native.set_error_type(Error)
+
+__all__ = [
+    "Bands",
+    "CornerValues",
+    "Curvature",
+    "Denoised",
+    "DenoiseReport",
+    "DistanceSummary",
+    "Distances",
+    "Error",
+    "FairReport",
+    "Fit",
+    "FitReport",
+    "InterpolationReport",
+    "Interpolant",
+    "Interpolator",
+    "LimitSurface",
+    "Mesh",
+    "MeshSeries",
+    "Nearest",
+    "NearestPoints",
+    "Problem",
+    "RepairChange",
+    "Repaired",
+    "SharpenReport",
+    "Sharpened",
+    "SparseRows",
+    "Tessellator",
+    "UpdateReport",
+    "Updates",
+    "bands",
+    "check",
+    "denoise",
+    "distance",
+    "fit",
+    "interpolate",
+    "limit_normals",
+    "limit_positions",
+    "morph",
+    "read",
+    "repair",
+    "sharpen",
+    "subdivide",
+    "surface_weights",
+    "tessellate",
+    "triangulate",
+    "write",
+]
