@@ -10,16 +10,20 @@ A batten is the thin strip that shipbuilders bend through fixed points to draw a
 """
 
 from . import _native
+from .elastic import ElasticMotion, ElasticSurface, Place, SurfaceEnergy
 from .errors import Error
 from .fitting import Fit, fit
 from .interpolation import Interpolant, Interpolator, Updates, interpolate
 from .mesh import CornerValues, Mesh, Repaired, check, read, repair, subdivide, triangulate, write
+from .pictures import render, write_png
 from .reports import (
     DenoiseReport,
     DistanceSummary,
+    EquilibriumReport,
     FairReport,
     FitReport,
     InterpolationReport,
+    MotionMeasure,
     Problem,
     RepairChange,
     SharpenReport,
@@ -47,28 +51,34 @@ __all__ = [
     "Bands",
     "CornerValues",
     "Curvature",
-    "Denoised",
     "DenoiseReport",
+    "Denoised",
     "DistanceSummary",
     "Distances",
+    "ElasticMotion",
+    "ElasticSurface",
+    "EquilibriumReport",
     "Error",
     "FairReport",
     "Fit",
     "FitReport",
-    "InterpolationReport",
     "Interpolant",
+    "InterpolationReport",
     "Interpolator",
     "LimitSurface",
     "Mesh",
     "MeshSeries",
+    "MotionMeasure",
     "Nearest",
     "NearestPoints",
+    "Place",
     "Problem",
     "RepairChange",
     "Repaired",
     "SharpenReport",
     "Sharpened",
     "SparseRows",
+    "SurfaceEnergy",
     "Tessellator",
     "UpdateReport",
     "Updates",
@@ -82,6 +92,7 @@ __all__ = [
     "limit_positions",
     "morph",
     "read",
+    "render",
     "repair",
     "sharpen",
     "subdivide",
@@ -89,4 +100,5 @@ __all__ = [
     "tessellate",
     "triangulate",
     "write",
+    "write_png",
 ]

@@ -164,6 +164,26 @@ class FitReport(Report):
 
 
 @dataclass(frozen=True, repr=False)
+class EquilibriumReport(Report):
+    """How a search for equilibrium ended: the last round's change, and the greatest force that nothing balances."""
+
+    rounds: int
+    change: float
+    residual_force: float
+    converged: bool
+
+
+@dataclass(frozen=True, repr=False)
+class MotionMeasure(Report):
+    """Energies of a body in motion, and the greatest force on a control point that nothing balances."""
+
+    kinetic_energy: float
+    elastic_energy: float
+    force_energy: float
+    residual_force: float
+
+
+@dataclass(frozen=True, repr=False)
 class RepairChange(Report):
     """One kind of change that a repair made."""
 

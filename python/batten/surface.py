@@ -129,6 +129,15 @@ class SparseRows:
     shape: tuple[int, int]
 
 
+def sparse_rows(data: Array, indices: Indices, indptr: Indices, shape: tuple[int, int]) -> Any:
+    """A scipy.sparse.csr_array where SciPy is installed, else SparseRows."""
+    try:
+        csr_array = importlib.import_module("scipy.sparse").csr_array
+    except ImportError:
+        return SparseRows(data, indices, indptr, shape)
+    return csr_array((data, indices, indptr), shape=shape)
+
+
 def surface_weights(
     mesh: Any,
     face: npt.ArrayLike,
@@ -154,11 +163,7 @@ def surface_weights(
         _PARTS.index(part),
         callback(progress),
     )
-    try:
-        csr_array = importlib.import_module("scipy.sparse").csr_array
-    except ImportError:
-        return SparseRows(data, indices, indptr, shape)
-    return csr_array((data, indices, indptr), shape=shape)
+    return sparse_rows(data, indices, indptr, shape)
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,8 @@
 #include "batten/refine/refinement.h"
 #include "native/arrays.h"
 #include "native/bind.h"
-#include "native/summary.h"
 #include "native/calls.h"
+#include "native/summary.h"
 #include "native/words.h"
 
 namespace batten::python {

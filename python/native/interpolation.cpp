@@ -131,9 +131,7 @@ class Updates {
     return result;
   }
   py::array_t<double> control() const { return array_of(Values(updates_.control())); }
-  py::array_t<Index> moved() const {
-    return array_of(Buffer<Index>(updates_.moved().begin(), updates_.moved().end()));
-  }
+  py::array_t<Index> moved() const { return array_of(Buffer<Index>(updates_.moved().begin(), updates_.moved().end())); }
 
  private:
   InterpolationUpdates updates_;
@@ -146,8 +144,7 @@ void bind_interpolation(py::module_& module) {
       .def(py::init([](const Topology& topology, const Scheme& scheme, double tolerance, const std::string& method,
                        const std::string& on_singular, const py::object& progress) {
         const InterpolateOptions options = options_of(tolerance, method, on_singular);
-        return run(progress,
-                   [&](const Progress& report) { return Interpolator(topology, scheme, options, report); });
+        return run(progress, [&](const Progress& report) { return Interpolator(topology, scheme, options, report); });
       }))
       .def("interpolate", &interpolate_mesh)
       .def("solve", &solve);

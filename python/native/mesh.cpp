@@ -25,9 +25,7 @@ namespace {
 using CreaseTuple = std::tuple<Index, Index, double>;
 using CornerTuple = std::tuple<Index, double>;
 
-Buffer<Index> indices_of(const Indices& array) {
-  return Buffer<Index>(array.data(), array.data() + array.size());
-}
+Buffer<Index> indices_of(const Indices& array) { return Buffer<Index>(array.data(), array.data() + array.size()); }
 
 Mesh make_mesh(const Doubles& points, const Indices& offsets, const Indices& vertices,
                const std::vector<CreaseTuple>& creases, const std::vector<CornerTuple>& corners,
@@ -105,8 +103,7 @@ std::vector<std::string> write(const std::string& path, const Mesh& mesh, const 
   return find_losses(path, mesh, options);
 }
 
-Mesh refined(const Mesh& mesh, const Topology& topology, const Scheme& scheme, int levels,
-             const py::object& progress) {
+Mesh refined(const Mesh& mesh, const Topology& topology, const Scheme& scheme, int levels, const py::object& progress) {
   Mesh result =
       run(progress, [&](const Progress& report) { return refine_mesh(topology, scheme, mesh, levels, report).mesh; });
   state_scheme(scheme.after_first_step(), result);

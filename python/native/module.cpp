@@ -12,18 +12,18 @@ namespace py = pybind11;
 namespace {
 
 /// In the order of batten::ErrorCode.
-constexpr std::array kCodes{"bad-argument",        "bad-shape",          "not-finite",         "index-out-of-range",
-                            "degenerate-face",     "repeated-face",      "non-manifold-edge",  "non-manifold-vertex",
-                            "inconsistent-faces",  "non-orientable",     "not-triangles",      "singular-system",
-                            "not-converged",       "file-not-readable",  "file-not-writable",  "bad-file",
-                            "unknown-format",      "too-large",          "cancelled",          "not-available"};
+constexpr std::array kCodes{"bad-argument",       "bad-shape",         "not-finite",        "index-out-of-range",
+                            "degenerate-face",    "repeated-face",     "non-manifold-edge", "non-manifold-vertex",
+                            "inconsistent-faces", "non-orientable",    "not-triangles",     "singular-system",
+                            "not-converged",      "file-not-readable", "file-not-writable", "bad-file",
+                            "unknown-format",     "too-large",         "cancelled",         "not-available"};
 static_assert(kCodes.size() == static_cast<std::size_t>(batten::ErrorCode::NotAvailable) + 1);
 
 PyObject* error_type = nullptr;  // batten.Error
 
 void raise(const batten::Error& error) {
-  const py::object raised = py::reinterpret_borrow<py::object>(error_type)(
-      error.what(), kCodes[static_cast<std::size_t>(error.code())]);
+  const py::object raised =
+      py::reinterpret_borrow<py::object>(error_type)(error.what(), kCodes[static_cast<std::size_t>(error.code())]);
   PyErr_SetObject(error_type, raised.ptr());
 }
 
@@ -46,4 +46,8 @@ PYBIND11_MODULE(_native, module) {
   batten::python::bind_surface(module);
   batten::python::bind_series(module);
   batten::python::bind_fit(module);
+  batten::python::bind_elastic(module);
+#ifdef BATTEN_WITH_RENDER
+  batten::python::bind_render(module);
+#endif
 }

@@ -11,24 +11,15 @@
 #include "batten/tessellate/tessellator.h"
 #include "native/arrays.h"
 #include "native/bind.h"
-#include "native/summary.h"
 #include "native/calls.h"
+#include "native/places.h"
+#include "native/sparse.h"
+#include "native/summary.h"
 #include "native/words.h"
 
 namespace batten::python {
 
 namespace {
-
-std::vector<SurfacePlace> places_of(const Indices& faces, const Doubles& parameters) {
-  const Eigen::Map<const Values> uv = rows_of(parameters, "(u, v)");
-  if (uv.cols() != 2 || uv.rows() != faces.size() || faces.ndim() > 1) {
-    throw Error(ErrorCode::BadShape, "places are n faces and (u, v) of shape (n, 2)");
-  }
-  std::vector<SurfacePlace> places;
-  places.reserve(static_cast<std::size_t>(uv.rows()));
-  for (Eigen::Index i = 0; i < uv.rows(); ++i) places.push_back({faces.data()[i], uv(i, 0), uv(i, 1)});
-  return places;
-}
 
 std::vector<Jet> jets_of(const LimitSurface& surface, const Indices& faces, const Doubles& parameters) {
   const std::vector<SurfacePlace> places = places_of(faces, parameters);
@@ -91,19 +82,13 @@ py::tuple nearest(const NearestPoints& search, const Doubles& queries, const py:
                         array_of(std::move(parameters)));
 }
 
-/// A sparse matrix as NumPy arrays: data, columns, row starts, shape.
 py::tuple weights(const Topology& topology, const Scheme& scheme, const Indices& faces, const Doubles& parameters,
                   int part, const py::object& progress) {
   const std::vector<SurfacePlace> places = places_of(faces, parameters);
   const SurfaceWeights::Matrix rows = run(progress, [&](const Progress& report) {
     return SurfaceWeights(topology, scheme).rows(places, kAllJetParts.at(static_cast<std::size_t>(part)), report);
   });
-  const auto entries = rows.nonZeros();
-  return py::make_tuple(
-      array_of(Buffer<double>(rows.valuePtr(), rows.valuePtr() + entries)),
-      array_of(Buffer<Index>(rows.innerIndexPtr(), rows.innerIndexPtr() + entries)),
-      array_of(Buffer<Index>(rows.outerIndexPtr(), rows.outerIndexPtr() + rows.rows() + 1)),
-      py::make_tuple(rows.rows(), rows.cols()));
+  return sparse_of(rows);
 }
 
 /// Fills arrays that the caller keeps from frame to frame. normals: without entries for none.
@@ -140,21 +125,20 @@ py::tuple distances(const Topology& topology, const Scheme& scheme, const Double
                     const py::object& progress) {
   const Eigen::Map<const Values> rows = points_of(control, "control points");
   const Eigen::Map<const Values> queries = points_of(points);
-  SurfaceDistances found = run(
-      progress, [&](const Progress& report) { return measure_distances(topology, scheme, rows, queries, report); });
+  SurfaceDistances found =
+      run(progress, [&](const Progress& report) { return measure_distances(topology, scheme, rows, queries, report); });
   return py::make_tuple(array_of(std::move(found.distances)), found.closed, found.diagonal, found.tolerance);
 }
 
 }  // namespace
 
 void bind_surface(py::module_& module) {
-  module.def("limit_positions",
-             [](const Topology& topology, const Scheme& scheme, const Doubles& values, const py::object& progress) {
-               const Eigen::Map<const Values> rows = rows_of(values);
-               return array_of(run(progress, [&](const Progress& report) {
-                 return LimitMatrix(topology, scheme).apply(rows, report);
-               }));
-             });
+  module.def("limit_positions", [](const Topology& topology, const Scheme& scheme, const Doubles& values,
+                                   const py::object& progress) {
+    const Eigen::Map<const Values> rows = rows_of(values);
+    return array_of(
+        run(progress, [&](const Progress& report) { return LimitMatrix(topology, scheme).apply(rows, report); }));
+  });
   module.def("limit_normals",
              [](const Topology& topology, const Scheme& scheme, const Doubles& control, const py::object& progress) {
                const Eigen::Map<const Values> rows = points_of(control, "control points");
@@ -166,8 +150,7 @@ void bind_surface(py::module_& module) {
       .def(py::init(
           [](const Topology& topology, const Scheme& scheme, const Doubles& control, const py::object& progress) {
             const Eigen::Map<const Values> rows = points_of(control, "control points");
-            return run(progress,
-                       [&](const Progress& report) { return LimitSurface(topology, scheme, rows, report); });
+            return run(progress, [&](const Progress& report) { return LimitSurface(topology, scheme, rows, report); });
           }))
       .def("face_count", [](const LimitSurface& surface) { return surface.base().face_count(); })
       .def("jets", &jet_rows)
@@ -176,8 +159,7 @@ void bind_surface(py::module_& module) {
       .def(py::init(
           [](const Topology& topology, const Scheme& scheme, const Doubles& control, const py::object& progress) {
             const Eigen::Map<const Values> rows = points_of(control, "control points");
-            return run(progress,
-                       [&](const Progress& report) { return NearestPoints(topology, scheme, rows, report); });
+            return run(progress, [&](const Progress& report) { return NearestPoints(topology, scheme, rows, report); });
           }))
       .def("set_control",
            [](NearestPoints& search, const Doubles& control, const py::object& progress) {
