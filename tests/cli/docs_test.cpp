@@ -31,7 +31,7 @@ std::vector<fs::path> pages() {
 }
 
 bool is_command(const std::string& line) {
-  static const std::regex command(R"(^(\./)?batten +(?!test\b|bench\b)[-a-z].*)");
+  static const std::regex command(R"(^(\./)?batten +(?!test\b|bench\b|python\b)[-a-z].*)");
   return std::regex_match(line, command);
 }
 
@@ -238,7 +238,8 @@ TEST(DocsPictures, AreShownAndEachHasACommand) {
     const std::string name = entry.path().filename().string();
     if (entry.path().extension() != ".png") continue;
     EXPECT_NE(shown.find("pictures/" + name + ")"), std::string::npos) << "no page shows " << name;
-    EXPECT_NE(made.find(" out/" + name), std::string::npos) << "no command makes " << name;
+    const bool by_program = shown.find("(\"out/" + name + "\"") != std::string::npos;  // of docs/python.md
+    EXPECT_TRUE(by_program || made.find(" out/" + name) != std::string::npos) << "no command makes " << name;
   }
 }
 
