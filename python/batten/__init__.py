@@ -15,6 +15,7 @@ from .errors import Error
 from .fitting import Fit, fit
 from .interpolation import Interpolant, Interpolator, Updates, interpolate
 from .mesh import CornerValues, Mesh, Repaired, check, read, repair, subdivide, triangulate, write
+from .models import MedialSurface, medial, texture
 from .pictures import render, write_png
 from .reports import (
     DenoiseReport,
@@ -66,6 +67,7 @@ __all__ = [
     "InterpolationReport",
     "Interpolator",
     "LimitSurface",
+    "MedialSurface",
     "Mesh",
     "MeshSeries",
     "MotionMeasure",
@@ -90,6 +92,7 @@ __all__ = [
     "interpolate",
     "limit_normals",
     "limit_positions",
+    "medial",
     "morph",
     "read",
     "render",
@@ -98,6 +101,7 @@ __all__ = [
     "subdivide",
     "surface_weights",
     "tessellate",
+    "texture",
     "triangulate",
     "write",
     "write_png",

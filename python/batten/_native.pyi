@@ -293,3 +293,19 @@ def render(
     /,
 ) -> npt.NDArray[np.uint8]: ...
 def write_png(path: str, pixels: npt.NDArray[np.uint8], /) -> None: ...
+def medial(
+    path: str, normals: bool, progress: _Progress, /
+) -> tuple[MeshData, _Doubles, _Doubles, _Doubles, _Doubles, _Doubles]: ...
+def texture(
+    topology: Topology,
+    scheme: Scheme,
+    control: MeshData,
+    preset: str,
+    seed: int,
+    frequency: float,
+    levels: int,
+    flat: bool,
+    displacement: float,
+    progress: _Progress,
+    /,
+) -> MeshData: ...

@@ -13,6 +13,7 @@
 #include "batten/dynamics/pressure.h"
 #include "batten/dynamics/spring.h"
 #include "batten/energy/surface_energy.h"
+#include "batten/progress.h"
 #include "batten/surface/surface_weights.h"
 #include "native/arrays.h"
 #include "native/bind.h"

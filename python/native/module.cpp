@@ -47,6 +47,7 @@ PYBIND11_MODULE(_native, module) {
   batten::python::bind_series(module);
   batten::python::bind_fit(module);
   batten::python::bind_elastic(module);
+  batten::python::bind_medial(module);
 #ifdef BATTEN_WITH_RENDER
   batten::python::bind_render(module);
 #endif
