@@ -10,9 +10,9 @@ bl_info = {
     "category": "Mesh",
 }
 
-from . import files, operators, panel
+from . import files, live, operators, panel
 
-_PARTS = (operators, files, panel)
+_PARTS = (operators, live, files, panel)
 
 
 def register() -> None:

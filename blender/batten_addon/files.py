@@ -13,17 +13,18 @@ from .library import Missing, batten
 
 
 class ImportTagged(bpy.types.Operator, ImportHelper):
-    """Read a mesh with its creases and corners, every coordinate as it stands"""
+    """Read a mesh with its creases and corners, or the surface of a medial model"""
 
     bl_idname = "import_mesh.batten"
     bl_label = "Import Mesh with Tags"
     bl_options = {"REGISTER", "UNDO"}
     filename_ext = ".obj"
-    filter_glob: StringProperty(default="*.obj;*.ply;*.off;*.stl", options={"HIDDEN"})
+    filter_glob: StringProperty(default="*.obj;*.ply;*.off;*.stl;*.srep.json;*.json", options={"HIDDEN"})
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         try:
-            made = batten().read(self.filepath)
+            medial = self.filepath.endswith(".json")
+            made = batten().medial(self.filepath).mesh if medial else batten().read(self.filepath)
         except (Missing, ValueError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -63,7 +64,7 @@ class ExportTagged(bpy.types.Operator, ExportHelper):
 
 
 def _import_entry(self: bpy.types.Menu, context: bpy.types.Context) -> None:
-    self.layout.operator(ImportTagged.bl_idname, text="Mesh with Subdivision Tags (.obj, .ply, .off, .stl)")
+    self.layout.operator(ImportTagged.bl_idname, text="Mesh with Subdivision Tags (.obj, .ply, .off, .stl), Medial Model (.srep.json)")
 
 
 def _export_entry(self: bpy.types.Menu, context: bpy.types.Context) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import bpy
 
+from .live import LiveSurface
 from .operators import (
     Bands,
     Denoise,
@@ -17,7 +18,7 @@ from .operators import (
 )
 
 _GROUPS = (
-    ("", ((SurfaceThroughVertices, "MOD_SUBSURF"), (FitToObjects, "MOD_SHRINKWRAP"))),
+    ("", ((SurfaceThroughVertices, "MOD_SUBSURF"), (LiveSurface, "LINKED"), (FitToObjects, "MOD_SHRINKWRAP"))),
     ("Detail", ((Denoise, "MOD_SMOOTH"), (Sharpen, "SHARPCURVE"), (Bands, "GRAPH"))),
     ("More", ((ModifiedButterfly, "MESH_ICOSPHERE"), (MorphToShapeKeys, "SHAPEKEY_DATA"), (LimitCurvature, "COLOR"), (Repair, "TOOL_SETTINGS"))),
 )

@@ -20,8 +20,8 @@ def check(body):
 
 def fresh(name="creature.obj"):
     """An empty scene with one model, selected."""
-    bpy.ops.object.select_all(action="SELECT")
-    bpy.ops.object.delete()
+    for thing in list(bpy.data.objects):
+        bpy.data.objects.remove(thing)
     bpy.ops.wm.obj_import(filepath=str(models / name), forward_axis="Y", up_axis="Z")
     thing = bpy.context.selected_objects[0]
     bpy.context.view_layer.objects.active = thing
@@ -131,6 +131,32 @@ def what_cannot_be_done_is_refused_by_name():
 
 
 @check
+def a_live_surface_follows_edits():
+    thing = fresh()
+    assert bpy.ops.mesh.batten_live() == {"FINISHED"}
+    follower = bpy.data.objects["creature surface"]
+    miss = lambda: np.linalg.norm(shown(follower)[: len(thing.data.vertices)] - points(thing.data), axis=1).max()
+    assert miss() < 1e-5
+    thing.data.vertices[40].co.z += 0.3
+    thing.data.update_tag()
+    bpy.context.view_layer.update()
+    assert miss() < 1e-5
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.transform.resize(value=(1.5, 1.0, 1.0))
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert miss() < 1e-5
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.subdivide()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.context.view_layer.update()
+    assert len(follower.data.vertices) == len(thing.data.vertices) > 2000 and miss() < 1e-5
+    assert "already" in refused(bpy.ops.mesh.batten_live)
+    bpy.data.objects.remove(thing)
+    assert follower["batten_source"] is None  # and follows nothing else
+
+
+@check
 def detail():
     thing = fresh()
     before = points(thing.data)
@@ -218,6 +244,9 @@ def files_keep_creases():
     bpy.ops.import_mesh.batten(filepath=str(path))
     back = bpy.context.view_layer.objects.active
     assert sorted(round(edge.crease, 5) for edge in back.data.edges)[-1] == 0.5
+    bpy.ops.import_mesh.batten(filepath=str(models / "bean.srep.json"))
+    bean = bpy.context.view_layer.objects.active
+    assert len(bean.data.vertices) > 20 and bean.modifiers[0].use_limit_surface
     assert "none.obj" in refused(bpy.ops.import_mesh.batten, filepath=str(out / "none.obj"))
 
 
