@@ -81,7 +81,7 @@ export class Panel {
     const alpha = slider('Alpha', { min: 0, max: 1, step: 0.05, value: 0 }, { change: (value) => app.set(`alpha ${value}`, { alpha: value }) });
     const fair = tick('Fairest surface through the points', false, (checked) => app.set(checked ? 'fair' : 'not fair', { fair: checked }));
     const plot = h('div', { class: 'plot', 'aria-label': 'Residuals of the iterations' });
-    const compare = this.needs(button('Compare iterations', () => void this.compare(plot)), () => this.hasFaces);
+    const compare = this.needs(button('Compare methods', () => void this.compare(plot)), () => this.hasFaces);
     const command = h('code', { class: 'command', 'aria-label': 'The command that does this' });
     const copy = this.needs(button('Copy the command', () => void navigator.clipboard.writeText(command.textContent ?? '').then(() => app.face.say('Copied.'))), () => app.work !== null);
     this.refreshers.push(() => {

@@ -3,8 +3,20 @@ import { DataTexture, LinearFilter, RGBAFormat, SRGBColorSpace } from 'three';
 
 const SIZE = 256;
 
-/** Light from above left, a soft fill from the right, a faint rim: as in a photo studio. `tint`: sRGB in [0, 1]. */
-export function matcap(tint: readonly [number, number, number]): DataTexture {
+/** How a ball is lit: light from above left, a soft fill from the right, a gloss. */
+export interface Light {
+  /** sRGB in [0, 1]. */
+  readonly tint: readonly [number, number, number];
+  readonly shade: number;
+  readonly key: number;
+  readonly fill: number;
+  readonly gloss: number;
+}
+export const PORCELAIN: Light = { tint: [0.93, 0.925, 0.91], shade: 0.5, key: 0.5, fill: 0.16, gloss: 0.1 };
+/** Nearly even, since colours are to be found on the bar. */
+export const EVEN: Light = { tint: [1, 1, 1], shade: 0.78, key: 0.22, fill: 0.06, gloss: 0.02 };
+
+export function matcap(lit: Light): DataTexture {
   const pixels = new Uint8Array(4 * SIZE * SIZE);
   for (let row = 0; row < SIZE; ++row) {
     for (let column = 0; column < SIZE; ++column) {
@@ -12,13 +24,15 @@ export function matcap(tint: readonly [number, number, number]): DataTexture {
       const y = (2 * (row + 0.5)) / SIZE - 1;
       const inside = Math.min(1, Math.hypot(x, y));
       const z = Math.sqrt(Math.max(0, 1 - inside * inside));
-      const key = Math.max(0, -0.45 * x + 0.62 * y + 0.64 * z);
+      const key = Math.max(0, 0.5 + 0.5 * (-0.45 * x + 0.62 * y + 0.64 * z));
       const fill = Math.max(0, 0.8 * x - 0.1 * y + 0.55 * z);
-      const rim = Math.pow(1 - z, 3);
+      const edge = Math.pow(1 - z, 3);
       const gloss = Math.pow(Math.max(0, -0.3 * x + 0.45 * y + 0.84 * z), 40);
-      const light = 0.3 + 0.6 * key + 0.14 * fill - 0.12 * rim;
+      const light = lit.shade + lit.key * key * key + lit.fill * (fill - edge);
       for (let channel = 0; channel < 3; ++channel) {
-        const base = (tint[channel] ?? 0) * light + 0.13 * gloss;
+        // Shadows are a little cool, as by the light of a sky.
+        const cool = 1 + 0.06 * (1 - key) * (channel - 1);
+        const base = (lit.tint[channel] ?? 0) * light * cool + lit.gloss * gloss;
         pixels[4 * (SIZE * row + column) + channel] = Math.round(255 * Math.min(1, Math.max(0, base)));
       }
       pixels[4 * (SIZE * row + column) + 3] = 255;

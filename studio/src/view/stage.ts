@@ -18,6 +18,10 @@ const PALETTES = {
 } as const;
 const POINT_PIXELS = 9;
 const MANY_POINTS = 5000;
+/** Half as much again would be too far away; words stand at the foot. */
+const ROOM = 1.18;
+const FOOT = 0.08;
+const FEW_POINTS = 30;
 
 export class Stage {
   readonly canvas: HTMLCanvasElement;
@@ -33,6 +37,7 @@ export class Stage {
   private dirty = true;
   private up: Vec3 = [0, 0, 1];
   private sphere = new THREE.Sphere(new THREE.Vector3(), 1);
+  private framed: Float64Array = new Float64Array();
   private flat = false;
 
   constructor(canvas: HTMLCanvasElement) {
@@ -84,7 +89,7 @@ export class Stage {
     this.control.resize(width, height);
     this.perspective.aspect = width / height;
     this.perspective.updateProjectionMatrix();
-    const half = this.sphere.radius * 1.1;
+    const half = this.sphere.radius * ROOM;
     this.orthographic.top = half;
     this.orthographic.bottom = -half;
     this.orthographic.left = (-half * width) / height;
@@ -103,10 +108,15 @@ export class Stage {
   /** Looks at what is within this box. up: UpAxis. */
   frame(points: Float64Array, up: number): void {
     this.up = UPS[up] ?? [0, 0, 1];
+    this.framed = points;
     const box = new THREE.Box3();
     const at = new THREE.Vector3();
     for (let i = 0; i + 2 < points.length; i += 3) box.expandByPoint(at.set(points[i] ?? 0, points[i + 1] ?? 0, points[i + 2] ?? 0));
-    box.getBoundingSphere(this.sphere);
+    box.getCenter(this.sphere.center);
+    let farthest = 0;
+    for (let i = 0; i + 2 < points.length; i += 3)
+      farthest = Math.max(farthest, at.set(points[i] ?? 0, points[i + 1] ?? 0, points[i + 2] ?? 0).distanceToSquared(this.sphere.center));
+    this.sphere.radius = Math.sqrt(farthest);
     if (!(this.sphere.radius > 0)) this.sphere.radius = 1;
     for (const camera of [this.perspective, this.orthographic]) camera.up.set(...this.up);
     this.perspective.near = this.sphere.radius / 100;
@@ -120,7 +130,7 @@ export class Stage {
 
   look(view: View, smoothly = true): void {
     const up = new THREE.Vector3(...this.up);
-    const front = Math.abs(up.y) > 0.5 ? new THREE.Vector3(0, 0, 1) : new THREE.Vector3(0, -1, 0).applyAxisAngle(up, 0);
+    const front = Math.abs(up.y) > 0.5 ? new THREE.Vector3(0, 0, 1) : new THREE.Vector3(0, -1, 0);
     const right = new THREE.Vector3().crossVectors(up, front).normalize();
     const directions: Record<View, THREE.Vector3> = {
       front,
@@ -128,11 +138,36 @@ export class Stage {
       top: up.clone().addScaledVector(front, 1e-3),
       home: front.clone().addScaledVector(right, 0.75).addScaledVector(up, 0.55),
     };
-    const eye = directions[view].normalize().multiplyScalar(this.sphere.radius * 4).add(this.sphere.center);
-    const { center } = this.sphere;
-    void this.controls.setLookAt(eye.x, eye.y, eye.z, center.x, center.y, center.z, smoothly);
-    void this.controls.fitToSphere(this.sphere, smoothly);
+    const away = directions[view].normalize();
+    const { target, half } = this.extent(away, up);
+    const distance = half / Math.tan(THREE.MathUtils.degToRad(this.perspective.fov / 2)) + this.sphere.radius / 2;
+    const eye = away.multiplyScalar(distance).add(target);
+    void this.controls.setLookAt(eye.x, eye.y, eye.z, target.x, target.y, target.z, smoothly);
+    if (this.flat) void this.controls.zoomTo((ROOM * this.sphere.radius) / half, smoothly);
     this.touch();
+  }
+
+  /** The middle of what is seen from a direction, and half of the height that it needs. */
+  private extent(away: THREE.Vector3, up: THREE.Vector3): { target: THREE.Vector3; half: number } {
+    const across = new THREE.Vector3().crossVectors(up, away).normalize();
+    const upward = new THREE.Vector3().crossVectors(away, across);
+    const low = new THREE.Vector2(Infinity, Infinity);
+    const high = new THREE.Vector2(-Infinity, -Infinity);
+    const at = new THREE.Vector3();
+    const seen = new THREE.Vector2();
+    for (let i = 0; i + 2 < this.framed.length; i += 3) {
+      at.set(this.framed[i] ?? 0, this.framed[i + 1] ?? 0, this.framed[i + 2] ?? 0).sub(this.sphere.center);
+      seen.set(at.dot(across), at.dot(upward));
+      low.min(seen);
+      high.max(seen);
+    }
+    const middle = low.clone().add(high).multiplyScalar(0.5);
+    const size = high.clone().sub(low);
+    // The surface of a few points may be much larger than they are.
+    const least = this.framed.length < 3 * FEW_POINTS ? 2 * this.sphere.radius : 0.2 * this.sphere.radius;
+    const half = (ROOM / 2) * Math.max(size.y, size.x / this.perspective.aspect, least);
+    const target = this.sphere.center.clone().addScaledVector(across, middle.x).addScaledVector(upward, middle.y - FOOT * half);
+    return { target, half };
   }
 
   set isFlat(flat: boolean) {
@@ -144,7 +179,6 @@ export class Stage {
     this.controls = this.steer(this.camera);
     this.controls.updateCameraUp();
     void this.controls.setLookAt(position.x, position.y, position.z, target.x, target.y, target.z, false);
-    void this.controls.fitToSphere(this.sphere, false);
     this.resize();
   }
 

@@ -1,10 +1,7 @@
 /** The limit surface as triangles with exact normals, in one of three looks. */
 import { BufferAttribute, BufferGeometry, DoubleSide, Mesh, MeshMatcapMaterial, ShaderMaterial } from 'three';
 import type { Drawing, Field, Shape } from '../engine/types';
-import { barPlace, barTexture, matcap } from './matcap';
-
-const PORCELAIN = [0.87, 0.885, 0.9] as const;
-const WHITE = [1, 1, 1] as const;
+import { barPlace, barTexture, EVEN, matcap, PORCELAIN } from './matcap';
 
 /** Stripes of light from all around: they break where the surface does. */
 function zebraMaterial(): ShaderMaterial {
@@ -34,7 +31,7 @@ function zebraMaterial(): ShaderMaterial {
 export class SurfaceLayer {
   readonly mesh = new Mesh(new BufferGeometry());
   private readonly plain = new MeshMatcapMaterial({ matcap: matcap(PORCELAIN), side: DoubleSide });
-  private readonly measured = new MeshMatcapMaterial({ matcap: matcap(WHITE), side: DoubleSide });
+  private readonly measured = new MeshMatcapMaterial({ matcap: matcap(EVEN), side: DoubleSide });
   private readonly zebra = zebraMaterial();
 
   constructor() {
