@@ -8,6 +8,13 @@ Points to_points(const val& numbers) {
   return Eigen::Map<const Points>(flat.data(), static_cast<Eigen::Index>(flat.size() / 3), 3);
 }
 
+std::vector<float> to_floats(const Values& values) {
+  std::vector<float> floats;
+  floats.reserve(static_cast<std::size_t>(values.size()));
+  for (Eigen::Index i = 0; i < values.size(); ++i) floats.push_back(static_cast<float>(values.data()[i]));
+  return floats;
+}
+
 val failure(int code, const std::string& message) {
   val result = val::object();
   result.set("failure", message);

@@ -32,6 +32,9 @@ val list(const Container& elements, const Make& make) {
   return result;
 }
 
+/// Rounded to float, row by row.
+std::vector<float> to_floats(const Values& values);
+
 /// N-by-3 from a typed array of 3 N numbers. Throws Error(BadShape).
 Points to_points(const val& numbers);
 

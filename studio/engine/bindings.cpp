@@ -28,6 +28,7 @@ EMSCRIPTEN_BINDINGS(batten) {
       .function("setControl", &Surface::set_control)
       .function("limitPoints", &Surface::limit_points)
       .function("field", &Surface::field)
+      .function("texture", &Surface::texture)
       .function("probe", &Surface::probe)
       .function("distances", &Surface::distances)
       .function("controlFile", &Surface::control_file);

@@ -18,10 +18,10 @@ bool has_boundary(const Topology& topology) {
   return false;
 }
 
-/// Holds a closed body, which nothing else holds, by weak springs at the middle of some faces.
+/// Holds a closed body, which nothing else holds, by springs at the middle of some faces, as on a bed of foam.
 std::shared_ptr<const Force> soft_hold(const ElasticSurface& body) {
   constexpr Index kSprings = 64;
-  constexpr double kStiffness = 20.0;
+  constexpr double kStiffness = 1500.0;
   const LimitSurface surface(body.patches(), body.rest());
   const Index faces = surface.base().face_count();
   const Index stride = std::max<Index>(1, faces / kSprings);

@@ -17,7 +17,7 @@ struct ElasticWishes {
   double pressure = 0.0;
   double gravity = 0.0;
   bool floor = false;         ///< a plane below the body
-  bool hold_boundary = true;  ///< where there is one; otherwise springs hold the whole body at its place, softly
+  bool hold_boundary = true;  ///< where there is one; otherwise springs hold the body at its place, as a bed of foam
 };
 
 /// Lengths are scaled so that the body is 1 across: the sliders then mean the same for every mesh.

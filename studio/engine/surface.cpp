@@ -1,12 +1,9 @@
 #include "studio/engine/surface.h"
 
 #include <algorithm>
-#include <array>
-#include <map>
 
 #include "batten/interpolate/fair_mesh.h"
 #include "batten/mesh/vertex_fields.h"
-#include "batten/nearest/surface_distances.h"
 
 namespace batten::studio {
 namespace {
@@ -32,13 +29,6 @@ std::vector<std::uint32_t> triangles_of(const Tessellator& tessellator) {
       for (const Index vertex : {faces[i], faces[i + k - 1], faces[i + k]})
         triangles.push_back(static_cast<std::uint32_t>(vertex));
   return triangles;
-}
-
-std::vector<float> to_floats(const Values& values) {
-  std::vector<float> floats;
-  floats.reserve(static_cast<std::size_t>(values.size()));
-  for (Eigen::Index i = 0; i < values.size(); ++i) floats.push_back(static_cast<float>(values.data()[i]));
-  return floats;
 }
 
 }  // namespace
@@ -115,6 +105,7 @@ val Surface::report() const {
   result.set("maxMovement", (control_.topRows(targets_.rows()) - targets_).rowwise().norm().maxCoeff());
   result.set("method", std::string(solved_->solve.method_name));
   result.set("iterations", solved_->solve.iterations);
+  result.set("seconds", solved_->solve.seconds);
   result.set("residuals", typed_array(solved_->solve.residual_history));
   result.set("measuredAfter", typed_array(solved_->solve.measured_after));
   result.set("singular", static_cast<double>(solved_->singular.size()));

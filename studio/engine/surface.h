@@ -42,6 +42,8 @@ class Surface {
   /// A number for each vertex drawn: {numbers, positions (0 to 1 on the bar, -1: none), scale}. word: error, moved, mean,
   /// gaussian, valence, sharpness.
   val field(const std::string& word);
+  /// A colour for each vertex drawn, sRGB in [0, 1]. preset: TexturePreset.
+  val texture(int preset, int seed);
   /// The place nearest to a point: {face, u, v, point, normal, mean, gaussian, greatest, least}.
   val probe(double x, double y, double z);
   /// Distances of points from the surface, as field().

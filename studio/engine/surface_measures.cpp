@@ -1,8 +1,9 @@
 /// What the page asks a surface for: fields, places, distances.
-#include <array>
-#include <map>
+#include <utility>
 
 #include "batten/expand/surface_fields.h"
+#include "batten/expand/texture.h"
+#include "batten/mesh/topology.h"
 #include "batten/nearest/surface_distances.h"
 #include "studio/engine/colors.h"
 #include "studio/engine/surface.h"
@@ -43,6 +44,23 @@ val Surface::field(const std::string& word) {
     prepare();
     const FieldWish wish = field_of(word, scheme_.kind);
     return colored(surface_field({topology_, scheme_, control_, &targets_}, wish.field, levels_), wish.scale);
+  });
+}
+
+val Surface::texture(int preset, int seed) {
+  return guarded([&] {
+    prepare();
+    PresetOptions options;
+    options.seed = static_cast<std::uint64_t>(seed);
+    TextureOptions asked;
+    asked.levels = levels_;
+    Mesh control = mesh_from_topology(topology_);
+    control.points = control_;
+    const Mesh colored = textured_surface(topology_, scheme_, control,
+                                          preset_texture(static_cast<TexturePreset>(preset), options), asked);
+    for (const Attribute& attribute : colored.attributes)
+      if (attribute.name == "color") return typed_array(to_floats(attribute.values));
+    throw Error(ErrorCode::BadShape, "the texture gave no colours");
   });
 }
 

@@ -1,6 +1,7 @@
 /** The page without its controls: work, engine and picture, kept in step. */
 import { EngineClient } from './engine/client';
-import type { Drawing, Field, Measure, Moved, Report, Vec3 } from './engine/types';
+import type { Drawing, Field, Measure, Moved, Preset, Report, Vec3 } from './engine/types';
+import { PRESETS } from './engine/types';
 import type { Kept } from './state/store';
 import { Store } from './state/store';
 import type { Settings, Source, Work } from './state/work';
@@ -9,7 +10,7 @@ import type { Stage } from './view/stage';
 import { counted, short } from './ui/text';
 import { wireframe } from './view/wireframe';
 
-export type Coloring = 'plain' | 'zebra' | Measure;
+export type Coloring = 'plain' | 'zebra' | Measure | Preset;
 
 /** What the page's own parts show; the panel fills it in. */
 export interface Face {
@@ -21,6 +22,14 @@ export interface Face {
 
 const SLOW_MS = 400;
 
+/** The vertex that a message of the library names, or one of the face that it names. */
+function placeIn(message: string, work: Work): number | null {
+  const vertex = /vert(?:ex|ices) (\d+)/.exec(message);
+  if (vertex) return Number(vertex[1]);
+  const face = /face (\d+)/.exec(message);
+  return face ? (work.faceVertices[work.faceOffsets[Number(face[1])] ?? 0] ?? null) : null;
+}
+
 export class App {
   readonly store = new Store();
   readonly engine = new EngineClient();
@@ -29,6 +38,8 @@ export class App {
   /** Why the mesh has no surface, or empty. */
   problem = '';
   coloring: Coloring = 'plain';
+  /** Of textures. */
+  seed = 1;
   picked: number | null = null;
   /** Timings of the last drag, for the bench page. */
   lastMove: Moved | null = null;
@@ -80,10 +91,10 @@ export class App {
     }
   }
 
-  async open(source: Source): Promise<void> {
+  async open(source: Source, settings: Settings = PLAIN): Promise<void> {
     await this.inOrder(async () => {
       const contents = await this.engine.run((engine) => engine.open(source.name, source.bytes));
-      const work = workOf(source, contents, PLAIN);
+      const work = workOf(source, contents, settings);
       this.inEngine = work;
       this.shown = null;
       this.picked = null;
@@ -174,6 +185,7 @@ export class App {
       this.stage.surface.clear();
       this.stage.control.draw(wireframe(work));
       this.face.showScale(null);
+      this.stage.points.pick(placeIn(this.problem, work));
       this.face.say(this.problem, true);
     }
     this.stage.touch();
@@ -187,7 +199,19 @@ export class App {
       return `${work.source.name}: ${size}. ${how}.`;
     }
     const refined = report.isRefined ? ` Refined once: ${counted(report.vertices, 'control point', 'control points')}.` : '';
-    return `${work.source.name}: ${size}. The surface passes through the points: max error ${short(report.maxError)}, ${report.method ?? ''}, ${counted(report.iterations ?? 0, 'iteration', 'iterations')}.${refined}`;
+    return `${work.source.name}: ${size}. Interpolated: max error ${short(report.maxError)}, ${counted(report.iterations ?? 0, 'iteration', 'iterations')}.${refined}`;
+  }
+
+  /** Shows other points on the same faces; the work stays. For use inside inOrder(). */
+  async preview(points: Float64Array): Promise<void> {
+    const { work } = this;
+    if (!work) return;
+    const shown = { ...work, points };
+    await this.sync(shown);
+    const { drawing } = await this.engine.run((engine) => engine.show(wishesOf(shown)));
+    this.stage.draw(drawing);
+    this.stage.drawPoints(points);
+    this.shown = null;
   }
 
   async color(): Promise<void> {
@@ -198,7 +222,13 @@ export class App {
       return;
     }
     try {
-      const field = await this.engine.run((engine) => engine.field(coloring));
+      const preset = PRESETS.findIndex((word) => word === coloring);
+      if (preset >= 0) {
+        this.stage.wear(await this.engine.run((engine) => engine.texture(preset, this.seed)));
+        this.face.showScale(null);
+        return;
+      }
+      const field = await this.engine.run((engine) => engine.field(coloring as Measure));
       this.stage.wear(field);
       this.face.showScale(field);
     } catch (error) {

@@ -4,6 +4,7 @@ import type { Face } from './app';
 import { App } from './app';
 import type { Field } from './engine/types';
 import { clear, keepIn, restore } from './state/keep';
+import { workOfLink } from './state/link';
 import { openFile, openUrl } from './ui/actions';
 import { drawColorBar } from './ui/colorbar';
 import { button, byId, h } from './ui/dom';
@@ -11,6 +12,7 @@ import { gallery } from './ui/gallery';
 import { Hands } from './ui/hands';
 import { fillHelp } from './ui/help';
 import { listenToKeys } from './ui/keys';
+import { Morpher } from './ui/morpher';
 import { Panel } from './ui/panel';
 import { askPlace } from './ui/probe';
 import { Sculptor } from './ui/sculptor';
@@ -63,21 +65,23 @@ function main(): void {
   const undo = button('Undo', () => app.undo());
   const redo = button('Redo', () => app.redo());
   const sculptor = new Sculptor(app);
+  app.store.subscribe(() => sculptor.abandon());
   const input = h('input', { type: 'file', id: 'file', accept: FILES, 'aria-label': 'Open a file', onchange: () => takeFiles(input.files) });
   const takeFiles = (files: FileList | null): void => {
     const file = files?.[0];
     if (file) void openFile(app, file).then(() => (input.value = ''));
   };
   progress.append(bar, button('Stop', () => app.engine.stop()));
-  parts.panel = new Panel(app, sculptor, byId('panel'), h('span', { class: 'file' }, 'Open a file', input));
+  parts.panel = new Panel(app, sculptor, new Morpher(app), byId('panel'), h('span', { class: 'file' }, 'Open a file', input));
 
   const help = byId('help') as HTMLDialogElement;
   fillHelp(help);
   const startAgain = button('Clear', () => {
     app.store.restore({ work: null, past: [], future: [] });
+    app.engine.restart('cleared'); // its memory goes back to the machine
     void clear();
   }, { title: 'Forgets the work, which is kept in this browser and nowhere else' });
-  byId('tools').append(undo, redo, startAgain, button('Light or dark', () => setTheme(!isDark(), stage)), button('?', () => help.showModal(), { 'aria-label': 'Keys and hands' }));
+  byId('tools').append(undo, redo, startAgain, button('\u25d0', () => setTheme(!isDark(), stage), { 'aria-label': 'Light or dark', title: 'Light or dark' }), button('?', () => help.showModal(), { 'aria-label': 'Keys and hands' }));
 
   byId('welcome').append(
     h('h2', {}, 'Surfaces through points'),
@@ -90,8 +94,9 @@ function main(): void {
   listenToDrops(takeFiles);
   setTheme(isDark(), stage);
   face.refresh();
-  void restore().then((kept) => {
-    if (kept?.work && !app.work) app.restore(kept);
+  void Promise.all([workOfLink(location.hash).catch(() => null), restore()]).then(([linked, kept]) => {
+    if (linked) void app.open(linked.source, linked.settings);
+    else if (kept?.work && !app.work) app.restore(kept);
     keepIn(app.store, () => undefined);
     document.documentElement.dataset['ready'] = String(Math.round(performance.now()));
   });

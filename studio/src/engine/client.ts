@@ -46,7 +46,7 @@ export class EngineClient {
       Atomics.store(this.stopFlag, 0, 1);
       return;
     }
-    this.restart('stopped');
+    if (this.rejectRunning) this.restart('stopped');
   }
 
   /** Ends the Worker, whatever it does. The next run starts another. */

@@ -124,6 +124,16 @@ export class Engine {
     return got(this.shown.field(measure));
   }
 
+  /** sRGB of each vertex drawn; preset: a place in PRESETS. */
+  texture(preset: number, seed: number): Float32Array {
+    return got(this.shown.texture(preset, seed));
+  }
+
+  /** Bytes that the engine has taken; it never gives them back but uses them again. */
+  memory(): number {
+    return this.module.HEAPU8.length;
+  }
+
   probe(at: Vec3): Probe {
     return got(this.shown.probe(at[0], at[1], at[2]));
   }
@@ -158,8 +168,10 @@ export class Engine {
     return got(this.module.bandedPoints(this.mesh, wishes, [...gains]));
   }
 
-  morph(wishes: SurfaceWishes, time: number): Float64Array {
+  /** from: the points at time 0, on the faces of the mesh. */
+  morph(from: Float64Array, wishes: SurfaceWishes, time: number): Float64Array {
     if (!this.second) throw new Error('open the shape to morph into first');
+    got(this.mesh.setPoints(from));
     return got(this.module.morphedPoints(this.mesh, this.second, wishes, time)).points;
   }
 

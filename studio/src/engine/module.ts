@@ -28,6 +28,7 @@ export interface Surface extends Handle {
   setControl(points: Float64Array): Result<null>;
   limitPoints(): Result<Float64Array>;
   field(word: string): Result<Field>;
+  texture(preset: number, seed: number): Result<Float32Array>;
   probe(x: number, y: number, z: number): Result<Probe>;
   distances(points: Float64Array): Result<Field>;
   controlFile(): Result<MeshFile>;
@@ -46,6 +47,7 @@ export interface FileSystem {
 }
 export interface EngineModule {
   FS: FileSystem;
+  HEAPU8: Uint8Array;
   readMesh(path: string, report: ReportProgress): Result<MeshFile>;
   makeSurface(file: MeshFile, wishes: SurfaceWishes, report: ReportProgress): Result<Surface>;
   makeElastic(file: MeshFile, wishes: ElasticWishes): Result<Elastic>;

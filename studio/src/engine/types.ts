@@ -15,6 +15,9 @@ export interface Corner {
 
 export const SCHEMES = ['catmull-clark', 'loop', 'butterfly', 'modified-butterfly'] as const;
 export const BOUNDARIES = ['none', 'edge-and-corner', 'edge-only'] as const;
+/** TexturePreset. */
+export const PRESETS = ['marble', 'wood', 'granite', 'rust', 'clouds'] as const;
+export type Preset = (typeof PRESETS)[number];
 export type SchemeWord = (typeof SCHEMES)[number];
 export type BoundaryWord = (typeof BOUNDARIES)[number];
 
@@ -60,6 +63,8 @@ export interface Report {
   rmsError?: number;
   maxMovement?: number;
   method?: string;
+  /** Of solving alone. */
+  seconds?: number;
   iterations?: number;
   residuals?: Float64Array;
   measuredAfter?: Int32Array;

@@ -2,6 +2,7 @@
 import type { App } from '../app';
 import type { Contents, Vec3 } from '../engine/types';
 import { edgeLoop, sharpnessOf, withCreases } from '../state/creases';
+import { linkOf } from '../state/link';
 import type { Source } from '../state/work';
 import { isCloud, PLAIN, vertexCount, wishesOf, workOf } from '../state/work';
 import { short } from './text';
@@ -142,4 +143,17 @@ export async function download(app: App, format: string, levels: number): Promis
 export async function downloadPicture(app: App, scale: number): Promise<void> {
   const { work } = app;
   if (work) save(renamed(work.source.name, 'picture', 'png'), await app.stage.png(scale));
+}
+
+/** The address of this work: its mesh, with what was moved and tagged, and its settings. */
+export async function copyLink(app: App): Promise<void> {
+  const { work } = app;
+  if (!work) return;
+  await app.inOrder(async () => {
+    const bytes = await app.withEngine<Uint8Array<ArrayBuffer>>((engine) => engine.writeMesh(), work);
+    const link = new URL(await linkOf(work.source.name, work.settings, new TextDecoder().decode(bytes)), location.href).href;
+    history.replaceState(null, '', link);
+    await navigator.clipboard?.writeText(link).catch(() => undefined);
+    app.face.say('The address of this page now holds the work; it is copied.');
+  });
 }

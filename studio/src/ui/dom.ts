@@ -32,7 +32,7 @@ export interface Choice<Word extends string> {
 
 /** A labelled list of choices. */
 export function choice<Word extends string>(label: string, words: readonly (readonly [Word, string])[], onchange: (word: Word) => void): Choice<Word> {
-  const select = h('select', { onchange: () => onchange(select.value as Word) }, ...words.map(([word, text]) => h('option', { value: word }, text)));
+  const select = h('select', { 'aria-label': label, onchange: () => onchange(select.value as Word) }, ...words.map(([word, text]) => h('option', { value: word }, text)));
   return { element: h('label', { class: 'row' }, h('span', {}, label), select), set: (word) => void (select.value = word) };
 }
 

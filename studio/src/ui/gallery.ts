@@ -21,7 +21,7 @@ const TITLES: readonly (readonly [string, string])[] = [
   ['icosahedron', 'Icosahedron'],
   ['cube', 'Cube'],
   ['broken-tripod', 'A broken mesh'],
-  ['bracket-scan', 'Scanned points'],
+  ['bracket-scan', 'A scan'],
 ];
 
 function ending(all: Record<string, unknown>, end: string): string | null {

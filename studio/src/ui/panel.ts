@@ -1,12 +1,15 @@
 /** The tools beside the picture. */
 import type { App, Coloring } from '../app';
 import type { BoundaryWord, Method, Vec3 } from '../engine/types';
+import { PRESETS } from '../engine/types';
 import { commandFor } from '../state/command';
 import type { Settings } from '../state/work';
 import { isCloud, wishesOf } from '../state/work';
-import { creaseSharpness, denoise, download, downloadPicture, equalize, fitSurface, nudge, repairMesh, toggleCorner, toggleInterpolation } from './actions';
+import { copyLink, creaseSharpness, denoise, download, downloadPicture, equalize, fitSurface, nudge, repairMesh, toggleCorner, toggleInterpolation } from './actions';
 import { button, choice, h, section, slider, tick } from './dom';
 import { plotMethods } from './plot';
+import { modelUrl } from './gallery';
+import type { Morpher } from './morpher';
 import type { Sculptor } from './sculptor';
 
 const SCHEME_CHOICES: readonly (readonly [Settings['scheme'], string])[] = [
@@ -30,6 +33,11 @@ const COLORINGS: readonly (readonly [Coloring, string])[] = [
   ['zebra', 'zebra stripes'],
   ['valence', 'valence'],
   ['sharpness', 'sharpness'],
+  ['marble', 'marble'],
+  ['wood', 'wood'],
+  ['granite', 'granite'],
+  ['rust', 'rust'],
+  ['clouds', 'clouds'],
 ];
 const BANDS = ['up to 4 edges', '4 to 8', '8 to 16', 'the shape'];
 const FORMATS = ['obj', 'ply', 'off', 'stl', 'usda'] as const;
@@ -41,6 +49,7 @@ export class Panel {
   constructor(
     private readonly app: App,
     private readonly sculptor: Sculptor,
+    private readonly morpher: Morpher,
     place: HTMLElement,
     fileInput: HTMLElement,
   ) {
@@ -51,10 +60,12 @@ export class Panel {
       this.pointSection(),
       this.sculptSection(),
       this.smoothSection(),
+      this.morphSection(),
       this.fitSection(),
       this.saveSection(),
     );
     sculptor.onChange = () => this.refresh();
+    morpher.onChange = () => this.refresh();
   }
 
   refresh(): void {
@@ -111,6 +122,7 @@ export class Panel {
     const { stage } = app;
     const coloring = choice('Colour by', COLORINGS, (word) => {
       app.coloring = word;
+      seed.element.hidden = !PRESETS.some((preset) => preset === word);
       void app.inOrder(() => app.color());
     });
     const show = (object: { visible: boolean }, label: string): HTMLElement =>
@@ -118,9 +130,16 @@ export class Panel {
         object.visible = checked;
         stage.touch();
       }).element;
+    const seed = slider('Seed', { min: 1, max: 50, step: 1, value: 1 }, {
+      change: (value) => {
+        app.seed = value;
+        void app.inOrder(() => app.color());
+      },
+    });
+    seed.element.hidden = true;
     const flat = tick('Without perspective', false, (checked) => void (stage.isFlat = checked));
     const views = (['front', 'right', 'top', 'home'] as const).map((view) => button(view[0]?.toUpperCase() + view.slice(1), () => stage.look(view)));
-    return section('Look', true, coloring.element, show(stage.control.group, 'Control mesh'), show(stage.points.object, 'Points'), flat.element, h('div', { class: 'buttons' }, ...views));
+    return section('Look', true, coloring.element, seed.element, show(stage.control.group, 'Control mesh'), show(stage.points.object, 'Points'), flat.element, h('div', { class: 'buttons' }, ...views));
   }
 
   private pointSection(): HTMLElement {
@@ -152,10 +171,10 @@ export class Panel {
 
   private sculptSection(): HTMLElement {
     const { app, sculptor } = this;
-    const material = { tension: 100, rigidity: 1, damping: 2, pressure: 0, gravity: 0, floor: false, holdBoundary: true };
+    const material = { tension: 40, rigidity: 0.1, damping: 4, pressure: 0, gravity: 0, floor: false, holdBoundary: true };
     const part = (label: string, name: 'tension' | 'damping' | 'pressure' | 'gravity', min: number, max: number, step: number): HTMLElement =>
       slider(label, { min, max, step, value: material[name] }, { change: (value) => void this.remake(() => void (material[name] = value), material) }).element;
-    const bending = slider('Stiffness', { min: -3, max: 2, step: 0.5, value: 0 }, { change: (value) => void this.remake(() => void (material.rigidity = 10 ** value), material) });
+    const bending = slider('Bending, 10\u02e3', { min: -3, max: 2, step: 0.5, value: -1 }, { change: (value) => void this.remake(() => void (material.rigidity = 10 ** value), material) });
     const floor = tick('A floor to land on', false, (checked) => void this.remake(() => void (material.floor = checked), material));
     const hold = tick('Hold the boundary', true, (checked) => void this.remake(() => void (material.holdBoundary = checked), material));
     const start = this.needs(button('Sculpt', () => void sculptor.start({ ...material }), { class: 'first' }), () => this.hasFaces && !sculptor.running && app.report !== null);
@@ -184,6 +203,27 @@ export class Panel {
     return section('Smooth and bands', false, strength.element, h('div', { class: 'buttons' }, smooth), ...gains.map((gain) => gain.element), h('div', { class: 'buttons' }, mix));
   }
 
+  private morphSection(): HTMLElement {
+    const { app, morpher } = this;
+    const input = h('input', {
+      type: 'file',
+      'aria-label': 'The shape to morph into',
+      onchange: () => {
+        const file = input.files?.[0];
+        if (file) void file.arrayBuffer().then((bytes) => morpher.open(file.name, new Uint8Array(bytes)));
+      },
+    });
+    const ball = async (): Promise<void> => {
+      const url = modelUrl('creature-ball');
+      if (url) await morpher.open('creature-ball.obj', new Uint8Array(await (await fetch(url)).arrayBuffer()));
+    };
+    const example = this.needs(button('The ball', () => void ball()), () => app.work?.source.name === 'creature.obj');
+    const time = slider('Time', { min: 0, max: 1, step: 0.02, value: 0 }, { input: (value) => void morpher.preview(value), change: (value) => void morpher.keep(value) });
+    this.needs(time.input, () => morpher.ready);
+    const play = this.needs(button('Play', () => void morpher.play()), () => morpher.ready);
+    return section('Morph', false, h('p', { class: 'note' }, 'Into a mesh of the same faces: the overall shape moves first, then the detail.'), h('div', { class: 'buttons' }, h('span', { class: 'file' }, 'Open the other shape', input), example, play), time.element);
+  }
+
   private fitSection(): HTMLElement {
     const { app } = this;
     const vertices = slider('Vertices', { min: 50, max: 3000, step: 50, value: this.budget }, { input: (value) => void (this.budget = value), change: () => this.refresh() });
@@ -197,7 +237,9 @@ export class Panel {
     const what = tick('The surface as a fine mesh, not its control mesh', false, (checked) => void (surface = checked));
     const buttons = FORMATS.map((format) => this.needs(button(`Download ${format.toUpperCase()}`, () => void download(app, format, surface ? 2 : -1)), () => this.hasFaces && !app.problem));
     const picture = this.needs(button('Download PNG', () => void downloadPicture(app, 2)), () => app.work !== null);
-    return section('Take it away', true, h('div', { class: 'buttons' }, ...buttons, picture), what.element);
+    const link = this.needs(button('Copy a link', () => void copyLink(app)), () => this.hasFaces);
+    const kept = h('p', { class: 'note' }, 'The work is kept in this browser until you press Clear. A link holds a small mesh itself; nothing is sent.');
+    return section('Take it away', true, h('div', { class: 'buttons' }, ...buttons, picture, link), what.element, kept);
   }
 
   /** Arrow keys: one step along an axis of the file. */

@@ -69,6 +69,13 @@ export class Sculptor {
     this.then(() => this.app.engine.run((engine) => engine.release()));
   }
 
+  /** Something else is shown now. */
+  abandon(): void {
+    if (!this.running) return;
+    this.running = false;
+    this.onChange();
+  }
+
   /** Ends; with `keep` the shape becomes the work, as one step. */
   async end(keep: boolean): Promise<void> {
     if (!this.running) return;

@@ -12,7 +12,9 @@ export interface Light {
   readonly fill: number;
   readonly gloss: number;
 }
-export const PORCELAIN: Light = { tint: [0.93, 0.925, 0.91], shade: 0.5, key: 0.5, fill: 0.16, gloss: 0.1 };
+export const PORCELAIN: Light = { tint: [0.93, 0.925, 0.91], shade: 0.47, key: 0.47, fill: 0.15, gloss: 0.09 };
+/** For colours of a material. */
+export const SATIN: Light = { tint: [1, 1, 1], shade: 0.6, key: 0.4, fill: 0.12, gloss: 0.1 };
 /** Nearly even, since colours are to be found on the bar. */
 export const EVEN: Light = { tint: [1, 1, 1], shade: 0.78, key: 0.22, fill: 0.06, gloss: 0.02 };
 

@@ -8,19 +8,19 @@ import { SurfaceLayer } from './surface_layer';
 
 CameraControls.install({ THREE });
 
-export type Look = 'plain' | 'zebra' | Field;
+export type Look = 'plain' | 'zebra' | Field | Float32Array;
 export type View = 'front' | 'right' | 'top' | 'home';
 
 const UPS: readonly Vec3[] = [[0, 0, 1], [1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, 0, 0], [0, -1, 0], [0, 0, -1]];
 const PALETTES = {
   light: { line: '#33475b', crease: '#d9480f', point: '#1971c2', picked: '#f08c00', rim: '#ffffff' },
-  dark: { line: '#9fb3c8', crease: '#ff922b', point: '#4dabf7', picked: '#ffd43b', rim: '#12161b' },
+  dark: { line: '#6f879f', crease: '#ff922b', point: '#4dabf7', picked: '#ffd43b', rim: '#12161b' },
 } as const;
 const POINT_PIXELS = 9;
 const MANY_POINTS = 5000;
 /** Half as much again would be too far away; words stand at the foot. */
-const ROOM = 1.18;
-const FOOT = 0.08;
+const ROOM = 1.24;
+const FOOT = 0.13;
 const FEW_POINTS = 30;
 
 export class Stage {
@@ -205,6 +205,7 @@ export class Stage {
   wear(look: Look): void {
     if (look === 'plain') this.surface.lookPlain();
     else if (look === 'zebra') this.surface.lookZebra();
+    else if (look instanceof Float32Array) this.surface.lookTextured(look);
     else this.surface.lookMeasured(look);
     this.touch();
   }

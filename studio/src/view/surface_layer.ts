@@ -1,7 +1,7 @@
 /** The limit surface as triangles with exact normals, in one of three looks. */
 import { BufferAttribute, BufferGeometry, DoubleSide, Mesh, MeshMatcapMaterial, ShaderMaterial } from 'three';
 import type { Drawing, Field, Shape } from '../engine/types';
-import { barPlace, barTexture, EVEN, matcap, PORCELAIN } from './matcap';
+import { barPlace, barTexture, EVEN, matcap, PORCELAIN, SATIN } from './matcap';
 
 /** Stripes of light from all around: they break where the surface does. */
 function zebraMaterial(): ShaderMaterial {
@@ -32,12 +32,13 @@ export class SurfaceLayer {
   readonly mesh = new Mesh(new BufferGeometry());
   private readonly plain = new MeshMatcapMaterial({ matcap: matcap(PORCELAIN), side: DoubleSide });
   private readonly measured = new MeshMatcapMaterial({ matcap: matcap(EVEN), side: DoubleSide });
+  private readonly textured = new MeshMatcapMaterial({ matcap: matcap(SATIN), side: DoubleSide, vertexColors: true });
   private readonly zebra = zebraMaterial();
 
   constructor() {
     this.mesh.material = this.plain;
     this.mesh.frustumCulled = false;
-    for (const material of [this.plain, this.measured, this.zebra]) {
+    for (const material of [this.plain, this.measured, this.textured, this.zebra]) {
       material.polygonOffset = true;
       material.polygonOffsetFactor = 1;
       material.polygonOffsetUnits = 1;
@@ -76,6 +77,12 @@ export class SurfaceLayer {
   }
   lookZebra(): void {
     this.mesh.material = this.zebra;
+  }
+  /** colors: sRGB of each vertex. */
+  lookTextured(colors: Float32Array): void {
+    const linear = colors.map((part) => (part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4));
+    this.mesh.geometry.setAttribute('color', new BufferAttribute(linear, 3));
+    this.mesh.material = this.textured;
   }
   lookMeasured(field: Field): void {
     const places = new Float32Array(2 * field.positions.length);

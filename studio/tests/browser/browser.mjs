@@ -22,7 +22,8 @@ export async function openStudio(folder, options = {}) {
   const ready = async () => {
     await page.waitForFunction(() => document.documentElement.dataset.ready !== undefined);
   };
-  await page.goto(url);
+  await page.goto(url, { waitUntil: 'commit', timeout: 120_000 });
+  page.setDefaultTimeout(60_000);
   await ready();
   const close = async () => {
     await context.close();

@@ -146,8 +146,8 @@ describe('operations', () => {
   it('a morph begins and ends at its shapes', () => {
     const { points } = engine.open('creature.obj', model('creature'));
     const end = engine.openSecond('creature-ball.obj', model('creature-ball'));
-    expect(engine.morph(PLAIN, 0)).toEqual(points);
-    expect(engine.morph(PLAIN, 1)).toEqual(end.points);
+    expect(engine.morph(points, PLAIN, 0)).toEqual(points);
+    expect(engine.morph(points, PLAIN, 1)).toEqual(end.points);
   });
   it('compares the iterations of the papers with ours', () => {
     engine.open('tripod.obj', model('tripod'));
