@@ -91,7 +91,12 @@ function main(): void {
   const ask = (at: readonly [number, number, number]): void => void askPlace(app, probe, at);
   const hands = new Hands(app, sculptor, ask);
   listenToKeys(app, { openFile: () => input.click(), help: () => help.showModal(), probe: ask });
-  listenToDrops(takeFiles);
+  const morpher = parts.panel.morpher;
+  listenToDrops((files) => {
+    const file = files?.[0];
+    if (!file || !app.work) takeFiles(files);
+    else askWhatItIs(file, () => takeFiles(files), () => void file.arrayBuffer().then((bytes) => morpher.open(file.name, new Uint8Array(bytes))));
+  });
   setTheme(isDark(), stage);
   face.refresh();
   void Promise.all([workOfLink(location.hash).catch(() => null), restore()]).then(([linked, kept]) => {
@@ -103,6 +108,20 @@ function main(): void {
   if ('serviceWorker' in navigator && import.meta.env.PROD) void navigator.serviceWorker.register('./offline.js').catch(() => undefined);
   // For tests and the bench page.
   Object.assign(globalThis, { studio: { app, sculptor, picker: hands.picker } });
+}
+
+/** A second file may be the next work, or what the first one turns into. */
+function askWhatItIs(file: File, open: () => void, morph: () => void): void {
+  const dialog = byId('second') as HTMLDialogElement;
+  const answer = (act: () => void): (() => void) => () => {
+    dialog.close();
+    act();
+  };
+  dialog.replaceChildren(
+    h('h2', { id: 'second-title' }, `What is ${file.name}?`),
+    h('div', { class: 'buttons' }, button('Open it instead', answer(open), { class: 'first' }), button('Morph into it', answer(morph)), button('Nothing', answer(() => undefined))),
+  );
+  dialog.showModal();
 }
 
 function listenToDrops(take: (files: FileList | null) => void): void {

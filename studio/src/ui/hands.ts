@@ -77,7 +77,7 @@ export class Hands {
   private hover(event: PointerEvent, x: number, y: number): void {
     const { work } = this.app;
     if (event.buttons !== 0 || !work || work.points.length > 30_000) return;
-    const over = !this.sculptor.running && this.picker.vertex(work.points, x, y) !== null;
+    const over = !this.sculptor.running && this.picker.isNear(work.points, x, y);
     this.app.stage.canvas.style.setProperty('cursor', over ? 'grab' : 'default');
   }
 

@@ -2,8 +2,8 @@
 import type { App, Coloring } from '../app';
 import type { BoundaryWord, Method, Vec3 } from '../engine/types';
 import { PRESETS } from '../engine/types';
-import { commandFor } from '../state/command';
-import type { Settings } from '../state/work';
+import { bandsCommand, commandFor, denoiseCommand, fitCommand, morphCommand, repairCommand, textureCommand } from '../state/command';
+import type { Settings, Work } from '../state/work';
 import { isCloud, wishesOf } from '../state/work';
 import { copyLink, creaseSharpness, denoise, download, downloadPicture, equalize, fitSurface, nudge, repairMesh, toggleCorner, toggleInterpolation } from './actions';
 import { button, choice, h, section, slider, tick } from './dom';
@@ -42,6 +42,10 @@ const COLORINGS: readonly (readonly [Coloring, string])[] = [
 const BANDS = ['up to 4 edges', '4 to 8', '8 to 16', 'the shape'];
 const FORMATS = ['obj', 'ply', 'off', 'stl', 'usda'] as const;
 
+function isTexture(coloring: Coloring): boolean {
+  return PRESETS.some((preset) => preset === coloring);
+}
+
 export class Panel {
   private readonly refreshers: (() => void)[] = [];
   private budget = 400;
@@ -49,12 +53,12 @@ export class Panel {
   constructor(
     private readonly app: App,
     private readonly sculptor: Sculptor,
-    private readonly morpher: Morpher,
+    readonly morpher: Morpher,
     place: HTMLElement,
     fileInput: HTMLElement,
   ) {
     place.append(
-      section('Mesh', true, h('div', { class: 'buttons' }, fileInput, this.needs(button('Repair', () => void repairMesh(app)), () => app.work !== null))),
+      section('Mesh', true, h('div', { class: 'buttons' }, fileInput, this.needs(button('Repair', () => void repairMesh(app)), () => app.work !== null)), this.command((work) => (app.problem ? repairCommand(work) : null))),
       this.surfaceSection(),
       this.lookSection(),
       this.pointSection(),
@@ -80,6 +84,19 @@ export class Panel {
     return control;
   }
 
+  /** The command that does this to the file as it was opened; null while there is none. */
+  private command(text: (work: Work) => string | null): HTMLElement {
+    const code = h('code', {});
+    const copy = button('Copy', () => void navigator.clipboard.writeText(code.textContent ?? '').then(() => this.app.face.say('Copied.')), { title: 'Copy the command that does this to the file as it was opened' });
+    const line = h('div', { class: 'command' }, code, copy);
+    this.refreshers.push(() => {
+      const shown = this.app.work ? text(this.app.work) : null;
+      line.hidden = shown === null;
+      code.textContent = shown;
+    });
+    return line;
+  }
+
   private get hasFaces(): boolean {
     return this.app.work !== null && !isCloud(this.app.work);
   }
@@ -93,8 +110,6 @@ export class Panel {
     const fair = tick('Fairest surface through the points', false, (checked) => app.set(checked ? 'fair' : 'not fair', { fair: checked }));
     const plot = h('div', { class: 'plot', 'aria-label': 'Residuals of the iterations' });
     const compare = this.needs(button('Compare methods', () => void this.compare(plot)), () => this.hasFaces);
-    const command = h('code', { class: 'command', 'aria-label': 'The command that does this' });
-    const copy = this.needs(button('Copy the command', () => void navigator.clipboard.writeText(command.textContent ?? '').then(() => app.face.say('Copied.'))), () => app.work !== null);
     this.refreshers.push(() => {
       const settings = app.work?.settings;
       toggle.setAttribute('aria-pressed', String(settings?.interpolate ?? false));
@@ -102,9 +117,8 @@ export class Panel {
       boundary.set(settings?.boundary ?? 'edge-only');
       alpha.set(settings?.alpha ?? 0);
       fair.input.checked = settings?.fair ?? false;
-      command.textContent = app.work ? commandFor(app.work, this.budget) : 'batten --help';
     });
-    return section('Surface', true, h('div', { class: 'buttons' }, toggle, compare), scheme.element, boundary.element, alpha.element, fair.element, plot, h('p', { class: 'note' }, 'The command that does this to the file as it was opened:'), command, h('div', { class: 'buttons' }, copy));
+    return section('Surface', true, h('div', { class: 'buttons' }, toggle, compare), scheme.element, boundary.element, alpha.element, fair.element, plot, this.command((work) => commandFor(work, this.budget)));
   }
 
   private async compare(plot: HTMLElement): Promise<void> {
@@ -122,7 +136,8 @@ export class Panel {
     const { stage } = app;
     const coloring = choice('Colour by', COLORINGS, (word) => {
       app.coloring = word;
-      seed.element.hidden = !PRESETS.some((preset) => preset === word);
+      seed.element.hidden = !isTexture(word);
+      this.refresh();
       void app.inOrder(() => app.color());
     });
     const show = (object: { visible: boolean }, label: string): HTMLElement =>
@@ -133,13 +148,14 @@ export class Panel {
     const seed = slider('Seed', { min: 1, max: 50, step: 1, value: 1 }, {
       change: (value) => {
         app.seed = value;
+        this.refresh();
         void app.inOrder(() => app.color());
       },
     });
     seed.element.hidden = true;
     const flat = tick('Without perspective', false, (checked) => void (stage.isFlat = checked));
     const views = (['front', 'right', 'top', 'home'] as const).map((view) => button(view[0]?.toUpperCase() + view.slice(1), () => stage.look(view)));
-    return section('Look', true, coloring.element, seed.element, show(stage.control.group, 'Control mesh'), show(stage.points.object, 'Points'), flat.element, h('div', { class: 'buttons' }, ...views));
+    return section('Look', true, coloring.element, seed.element, this.command((work) => (isTexture(app.coloring) ? textureCommand(work, app.coloring, app.seed) : null)), show(stage.control.group, 'Control mesh'), show(stage.points.object, 'Points'), flat.element, h('div', { class: 'buttons' }, ...views));
   }
 
   private pointSection(): HTMLElement {
@@ -196,11 +212,13 @@ export class Panel {
 
   private smoothSection(): HTMLElement {
     const { app } = this;
-    const strength = slider('Passes', { min: 1, max: 40, step: 1, value: 4 }, {});
+    const again = (): void => this.refresh();
+    const strength = slider('Passes', { min: 1, max: 40, step: 1, value: 4 }, { input: again });
     const smooth = this.needs(button('Denoise', () => void denoise(app, strength.input.valueAsNumber)), () => this.hasFaces);
-    const gains = BANDS.map((label) => slider(label, { min: 0, max: 3, step: 0.1, value: 1 }, {}));
-    const mix = this.needs(button('Mix the bands', () => void equalize(app, gains.map((gain) => gain.input.valueAsNumber))), () => this.hasFaces);
-    return section('Smooth and bands', false, strength.element, h('div', { class: 'buttons' }, smooth), ...gains.map((gain) => gain.element), h('div', { class: 'buttons' }, mix));
+    const gains = BANDS.map((label) => slider(label, { min: 0, max: 3, step: 0.1, value: 1 }, { input: again }));
+    const mixed = (): number[] => gains.map((gain) => gain.input.valueAsNumber);
+    const mix = this.needs(button('Mix the bands', () => void equalize(app, mixed())), () => this.hasFaces);
+    return section('Smooth and bands', false, strength.element, h('div', { class: 'buttons' }, smooth), this.command((work) => denoiseCommand(work, strength.input.valueAsNumber)), ...gains.map((gain) => gain.element), h('div', { class: 'buttons' }, mix), this.command((work) => bandsCommand(work, mixed())));
   }
 
   private morphSection(): HTMLElement {
@@ -221,14 +239,14 @@ export class Panel {
     const time = slider('Time', { min: 0, max: 1, step: 0.02, value: 0 }, { input: (value) => void morpher.preview(value), change: (value) => void morpher.keep(value) });
     this.needs(time.input, () => morpher.ready);
     const play = this.needs(button('Play', () => void morpher.play()), () => morpher.ready);
-    return section('Morph', false, h('p', { class: 'note' }, 'Into a mesh of the same faces: the overall shape moves first, then the detail.'), h('div', { class: 'buttons' }, h('span', { class: 'file' }, 'Open the other shape', input), example, play), time.element);
+    return section('Morph', false, h('p', { class: 'note' }, 'Into a mesh of the same faces: the overall shape moves first, then the detail.'), h('div', { class: 'buttons' }, h('span', { class: 'file' }, 'Open the other shape', input), example, play), time.element, this.command((work) => (morpher.ready ? morphCommand(work, morpher.name, time.input.valueAsNumber) : null)));
   }
 
   private fitSection(): HTMLElement {
     const { app } = this;
-    const vertices = slider('Vertices', { min: 50, max: 3000, step: 50, value: this.budget }, { input: (value) => void (this.budget = value), change: () => this.refresh() });
+    const vertices = slider('Vertices', { min: 50, max: 3000, step: 50, value: this.budget }, { input: (value) => { this.budget = value; this.refresh(); } });
     const fit = this.needs(button('Fit', () => void fitSurface(app, this.budget, 0)), () => app.work !== null);
-    return section('Fit', false, h('p', { class: 'note' }, 'Draws a surface to the points; their faces, if any, do not matter.'), vertices.element, h('div', { class: 'buttons' }, fit));
+    return section('Fit', false, h('p', { class: 'note' }, 'Draws a surface to the points; their faces, if any, do not matter.'), vertices.element, h('div', { class: 'buttons' }, fit), this.command((work) => fitCommand(work, this.budget)));
   }
 
   private saveSection(): HTMLElement {

@@ -42,16 +42,24 @@ export class Picker {
     return there !== null && this.project(...there).depth < screen.depth - 0.002;
   }
 
-  /** The vertex whose point is near a pixel and not hidden. */
-  vertex(points: Float64Array, x: number, y: number): number | null {
+  private near(points: Float64Array, x: number, y: number): { vertex: number; away: number; screen: Screen }[] {
     const near: { vertex: number; away: number; screen: Screen }[] = [];
     for (let vertex = 0; 3 * vertex < points.length; ++vertex) {
       const screen = this.project(points[3 * vertex] ?? 0, points[3 * vertex + 1] ?? 0, points[3 * vertex + 2] ?? 0);
       const away = Math.hypot(screen.x - x, screen.y - y);
       if (away < NEAR_PIXELS && Math.abs(screen.depth) <= 1) near.push({ vertex, away, screen });
     }
-    near.sort((a, b) => a.away - b.away);
-    return near.slice(0, 4).find((one) => !this.hidden(one.screen))?.vertex ?? null;
+    return near.sort((a, b) => a.away - b.away);
+  }
+
+  /** True where a point, be it hidden, is near a pixel: quick enough for each move of the pointer. */
+  isNear(points: Float64Array, x: number, y: number): boolean {
+    return this.near(points, x, y).length > 0;
+  }
+
+  /** The vertex whose point is near a pixel and not hidden. */
+  vertex(points: Float64Array, x: number, y: number): number | null {
+    return this.near(points, x, y).slice(0, 4).find((one) => !this.hidden(one.screen))?.vertex ?? null;
   }
 
   /** The pair of vertices whose edge passes near a pixel, in front first. */

@@ -19,7 +19,7 @@ const named = (page, name) => page.getByRole('button', { name, exact: true });
 const shoot = async (page, name) => {
   if (!pictures) return;
   await page.waitForTimeout(600);
-  await page.screenshot({ path: join(pictures, `${name}.png`) });
+  await page.screenshot({ path: join(pictures, `${name}.jpg`), type: 'jpeg', quality: 88 });
 };
 
 async function open(page, path) {
