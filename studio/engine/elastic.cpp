@@ -80,8 +80,7 @@ val Elastic::grab(double x, double y, double z, double stiffness) {
     const NearestPoint found = nearest.nearest(inward(x, y, z));
     hand_ = std::make_shared<Eigen::Vector3d>(found.point);
     const PointPath path = [hand = hand_](double) { return *hand; };
-    spring_ = std::make_shared<PointSprings>(*body_,
-                                             std::vector<PointSprings::Spring>{{found.place, path, stiffness}});
+    spring_ = std::make_shared<PointSprings>(*body_, std::vector<PointSprings::Spring>{{found.place, path, stiffness}});
     rebuild();
     return val::null();
   });

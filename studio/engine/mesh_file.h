@@ -12,7 +12,8 @@ namespace batten::studio {
 /// Keeps all that a file holds, of which the page sees points, faces and tags.
 class MeshFile {
  public:
-  explicit MeshFile(Mesh mesh, std::vector<std::string> notes = {}) : mesh_(std::move(mesh)), notes_(std::move(notes)) {}
+  explicit MeshFile(Mesh mesh, std::vector<std::string> notes = {})
+      : mesh_(std::move(mesh)), notes_(std::move(notes)) {}
 
   const Mesh& mesh() const { return mesh_; }
 

@@ -72,8 +72,8 @@ val morphed_points(const std::shared_ptr<MeshFile>& from, const std::shared_ptr<
 
 val compared_methods(const std::shared_ptr<MeshFile>& file, const val& wishes, const val& report) {
   return guarded([&] {
-    const std::vector<MethodResult> methods = compare_methods(Topology(file->mesh()), scheme_of(wishes), {},
-                                                              file->mesh().points, progress_of(report));
+    const std::vector<MethodResult> methods =
+        compare_methods(Topology(file->mesh()), scheme_of(wishes), {}, file->mesh().points, progress_of(report));
     return list(methods, [](const MethodResult& method) {
       val one = val::object();
       one.set("name", method.name);

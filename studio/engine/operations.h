@@ -11,7 +11,8 @@ val denoised_points(const std::shared_ptr<MeshFile>& file, const val& wishes, in
 /// gains: finest bumps first. {points, labels: [[shortest, longest]]}.
 val banded_points(const std::shared_ptr<MeshFile>& file, const val& wishes, const val& gains);
 /// Between two meshes of the same faces: {points} at time t in [0, 1].
-val morphed_points(const std::shared_ptr<MeshFile>& from, const std::shared_ptr<MeshFile>& to, const val& wishes, double t);
+val morphed_points(const std::shared_ptr<MeshFile>& from, const std::shared_ptr<MeshFile>& to, const val& wishes,
+                   double t);
 /// Iterations of ours and the papers': [{name, failure, residuals, measuredAfter, iterations, seconds, maxError}].
 val compared_methods(const std::shared_ptr<MeshFile>& file, const val& wishes, const val& report);
 /// A surface to points: {mesh, rms, max, outliers, rounds: [{vertices, rms, max}]}. When the report says stop after a

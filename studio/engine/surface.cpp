@@ -41,7 +41,8 @@ Surface::Surface(std::shared_ptr<const MeshFile> file, const SurfaceWishes& wish
       topology_(given_),
       scheme_(wishes.scheme),
       control_(targets_) {
-  if (given_.face_count() == 0) throw Error(ErrorCode::BadArgument, "there are no faces: fit a surface to these points");
+  if (given_.face_count() == 0)
+    throw Error(ErrorCode::BadArgument, "there are no faces: fit a surface to these points");
   solve(progress);
 }
 
@@ -79,7 +80,8 @@ void Surface::solve_fairly(const Progress& progress) {
 
 void Surface::prepare() {
   const auto vertices = tessellator_ ? static_cast<Index>(points_.size() / 3) : 0;
-  if (tessellator_ && vertices == tessellator_->vertex_count() && patches_->topology().vertex_count() == control_.rows())
+  if (tessellator_ && vertices == tessellator_->vertex_count() &&
+      patches_->topology().vertex_count() == control_.rows())
     return;
   levels_ = wishes_.levels > 0 ? wishes_.levels : drawn_levels(topology_);
   patches_.emplace(topology_, scheme_);
@@ -146,7 +148,8 @@ val Surface::shape() {
 void Surface::take(const InterpolationUpdates& updates) {
   topology_ = updates.topology();
   scheme_ = updates.scheme();
-  if (control_.rows() != updates.control().rows() || updates.moved().size() > static_cast<std::size_t>(control_.rows()) / 8) {
+  if (control_.rows() != updates.control().rows() ||
+      updates.moved().size() > static_cast<std::size_t>(control_.rows()) / 8) {
     control_ = updates.control();
     return;
   }
@@ -189,7 +192,8 @@ val Surface::move(int vertex, double x, double y, double z, int rings) {
 val Surface::set_control(const val& points) {
   return guarded([&] {
     const Points control = to_points(points);
-    if (control.rows() != control_.rows()) throw Error(ErrorCode::BadShape, "a point for each control vertex is needed");
+    if (control.rows() != control_.rows())
+      throw Error(ErrorCode::BadShape, "a point for each control vertex is needed");
     control_ = control;
     is_current_ = false;
     return val::null();

@@ -39,8 +39,8 @@ class Surface {
   val set_control(const val& points);
   /// Where the surface is at the vertices of the file's mesh.
   val limit_points() const;
-  /// A number for each vertex drawn: {numbers, positions (0 to 1 on the bar, -1: none), scale}. word: error, moved, mean,
-  /// gaussian, valence, sharpness.
+  /// A number for each vertex drawn: {numbers, positions (0 to 1 on the bar, -1: none), scale}. word: error, moved,
+  /// mean, gaussian, valence, sharpness.
   val field(const std::string& word);
   /// A colour for each vertex drawn, sRGB in [0, 1]. preset: TexturePreset.
   val texture(int preset, int seed);

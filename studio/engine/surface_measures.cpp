@@ -33,9 +33,7 @@ FieldWish field_of(const std::string& word, SchemeKind kind) {
   return {SurfaceField::Sharpness, sharpness};
 }
 
-val triple(const Eigen::Vector3d& vector) {
-  return typed_array(vector.data(), 3);
-}
+val triple(const Eigen::Vector3d& vector) { return typed_array(vector.data(), 3); }
 
 }  // namespace
 
