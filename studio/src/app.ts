@@ -1,7 +1,7 @@
 /** The page without its controls: work, engine and picture, kept in step. */
 import { EngineClient } from './engine/client';
-import type { Drawing, Field, Measure, Moved, Preset, Report, Vec3 } from './engine/types';
-import { PRESETS } from './engine/types';
+import type { Drawing, Field, Measure, Moved, Preset, Report, SchemeWord, Vec3 } from './engine/types';
+import { PRESETS, SCHEMES } from './engine/types';
 import type { Kept } from './state/store';
 import { Store } from './state/store';
 import type { Settings, Source, Work } from './state/work';
@@ -30,6 +30,14 @@ function placeIn(message: string, work: Work): number | null {
   return face ? (work.faceVertices[work.faceOffsets[Number(face[1])] ?? 0] ?? null) : null;
 }
 
+/** Vertex i of the picture belongs to point i. */
+function farthest(points: Float64Array, drawn: Float32Array): number {
+  let most = 0;
+  for (let i = 0; i + 2 < points.length; i += 3)
+    most = Math.max(most, Math.hypot((points[i] ?? 0) - (drawn[i] ?? 0), (points[i + 1] ?? 0) - (drawn[i + 1] ?? 0), (points[i + 2] ?? 0) - (drawn[i + 2] ?? 0)));
+  return most;
+}
+
 export class App {
   readonly store = new Store();
   readonly engine = new EngineClient();
@@ -38,6 +46,8 @@ export class App {
   /** Why the mesh has no surface, or empty. */
   problem = '';
   coloring: Coloring = 'plain';
+  /** The surface of the points as a plain control mesh, shown beside. */
+  beside: 'none' | SchemeWord = 'none';
   /** Of textures. */
   seed = 1;
   picked: number | null = null;
@@ -146,6 +156,7 @@ export class App {
     this.face.refresh();
     if (!work) {
       this.stage.clearSurface();
+      this.stage.cloud.clear();
       this.stage.drawPoints(new Float64Array());
       this.shown = null;
       this.report = null;
@@ -159,6 +170,7 @@ export class App {
     }
     this.stage.drawPoints(work.points);
     this.stage.points.pick(this.picked);
+    this.stage.cloud.clear();
     this.problem = '';
     this.report = null;
     this.drawing = null;
@@ -179,10 +191,12 @@ export class App {
       this.stage.draw(drawing);
       await this.color();
       this.face.say(this.resultText(work, report));
+      await this.showBeside(work);
     } catch (error) {
+      if (this.report) throw error; // there is a surface; what is beside it is not
       this.problem = error instanceof Error ? error.message : String(error);
       this.shown = work;
-      this.stage.surface.clear();
+      this.stage.clearSurface();
       this.stage.control.draw(wireframe(work));
       this.face.showScale(null);
       this.stage.points.pick(placeIn(this.problem, work));
@@ -190,6 +204,19 @@ export class App {
     }
     this.stage.touch();
     this.face.refresh();
+  }
+
+  /** The other surface, and how far it leaves the points. */
+  async showBeside(work: Work): Promise<void> {
+    if (this.beside === 'none') {
+      this.stage.drawBeside(null);
+      return;
+    }
+    const scheme = SCHEMES.indexOf(this.beside);
+    const { report, drawing } = await this.engine.run((engine) => engine.beside({ ...wishesOf(work), scheme, alpha: 0, interpolate: false, fair: false }));
+    this.stage.drawBeside(drawing);
+    const left = farthest(work.points, drawing.points);
+    this.face.say(`Beside it: ${report.scheme} of the points as control mesh. It leaves the points by up to ${short(left)}, ${short((100 * left) / work.diagonal)} % of the size.`);
   }
 
   private resultText(work: Work, report: Report): string {
@@ -236,6 +263,20 @@ export class App {
       this.face.showScale(null);
       throw error;
     }
+  }
+
+  /** Draws the points of another file, coloured by their distance from the surface. */
+  async measureDistances(source: Source): Promise<void> {
+    await this.inOrder(async () => {
+      if (!this.report) throw new Error('there is no surface to measure from');
+      const { points, field } = await this.engine.run((engine) => engine.distances(source.name, source.bytes));
+      this.stage.cloud.draw(points, field);
+      this.stage.touch();
+      this.face.showScale(field);
+      const count = field.numbers.length;
+      const rms = Math.sqrt(field.numbers.reduce((sum, one) => sum + one * one, 0) / Math.max(1, count));
+      this.face.say(`${source.name}: ${counted(count, 'point', 'points')}, distance from the surface at most ${short(field.scale.highest)}, rms ${short(rms)}.`);
+    });
   }
 
   pick(vertex: number | null): void {

@@ -95,7 +95,13 @@ function main(): void {
   listenToDrops((files) => {
     const file = files?.[0];
     if (!file || !app.work) takeFiles(files);
-    else askWhatItIs(file, () => takeFiles(files), () => void file.arrayBuffer().then((bytes) => morpher.open(file.name, new Uint8Array(bytes))));
+    else
+      askWhatItIs(file.name, {
+        'Open it instead': () => takeFiles(files),
+        'Morph into it': () => void file.arrayBuffer().then((bytes) => morpher.open(file.name, new Uint8Array(bytes))),
+        'Measure how far its points are': () => void file.arrayBuffer().then((bytes) => app.measureDistances({ name: file.name, bytes: new Uint8Array(bytes) })),
+        Nothing: () => undefined,
+      });
   });
   setTheme(isDark(), stage);
   face.refresh();
@@ -110,17 +116,16 @@ function main(): void {
   Object.assign(globalThis, { studio: { app, sculptor, picker: hands.picker } });
 }
 
-/** A second file may be the next work, or what the first one turns into. */
-function askWhatItIs(file: File, open: () => void, morph: () => void): void {
+/** A second file may be many things. */
+function askWhatItIs(name: string, answers: Readonly<Record<string, () => void>>): void {
   const dialog = byId('second') as HTMLDialogElement;
-  const answer = (act: () => void): (() => void) => () => {
-    dialog.close();
-    act();
-  };
-  dialog.replaceChildren(
-    h('h2', { id: 'second-title' }, `What is ${file.name}?`),
-    h('div', { class: 'buttons' }, button('Open it instead', answer(open), { class: 'first' }), button('Morph into it', answer(morph)), button('Nothing', answer(() => undefined))),
+  const buttons = Object.entries(answers).map(([text, act]) =>
+    button(text, () => {
+      dialog.close();
+      act();
+    }),
   );
+  dialog.replaceChildren(h('h2', { id: 'second-title' }, `What is ${name}?`), h('div', { class: 'buttons' }, ...buttons));
   dialog.showModal();
 }
 

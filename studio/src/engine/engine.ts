@@ -111,6 +111,16 @@ export class Engine {
     return { report: surface.report(), drawing };
   }
 
+  /** Another surface of the same mesh, to be drawn beside the first. */
+  beside(wishes: SurfaceWishes): Shown {
+    const other = got(this.module.makeSurface(this.mesh, wishes, this.report));
+    try {
+      return { report: other.report(), drawing: got(other.drawing()) };
+    } finally {
+      other.delete();
+    }
+  }
+
   /** Moves one point; the surface follows. The file's points follow by setPoints(), when the drag ends. */
   move(vertex: number, to: Vec3, rings: number): Moved {
     const begin = performance.now();
@@ -136,6 +146,17 @@ export class Engine {
 
   probe(at: Vec3): Probe {
     return got(this.shown.probe(at[0], at[1], at[2]));
+  }
+
+  /** How far the points of another file are from the surface. */
+  distances(name: string, bytes: Uint8Array): { points: Float64Array; field: Field } {
+    const file = this.read(name, bytes);
+    try {
+      const { points } = file.contents();
+      return { points, field: got(this.shown.distances(points)) };
+    } finally {
+      file.delete();
+    }
   }
 
   /** The control mesh as a file, or with `levels` 0 or more the surface as a mesh. */

@@ -85,3 +85,16 @@ export function slider(label: string, range: SliderRange, on: { input?: (value: 
 export function section(title: string, open: boolean, ...children: Child[]): HTMLDetailsElement {
   return h('details', { open, class: 'section' }, h('summary', {}, h('h2', {}, title)), h('div', { class: 'section-body' }, ...children));
 }
+
+/** A button that asks for a file. */
+export function fileButton(text: string, label: string, take: (name: string, bytes: Uint8Array) => void): { element: HTMLSpanElement; input: HTMLInputElement } {
+  const input = h('input', {
+    type: 'file',
+    'aria-label': label,
+    onchange: () => {
+      const file = input.files?.[0];
+      if (file) void file.arrayBuffer().then((bytes) => take(file.name, new Uint8Array(bytes)));
+    },
+  });
+  return { element: h('span', { class: 'file' }, text, input), input };
+}

@@ -6,7 +6,7 @@ import { bandsCommand, commandFor, denoiseCommand, fitCommand, morphCommand, rep
 import type { Settings, Work } from '../state/work';
 import { isCloud, wishesOf } from '../state/work';
 import { copyLink, creaseSharpness, denoise, download, downloadPicture, equalize, fitSurface, nudge, repairMesh, toggleCorner, toggleInterpolation } from './actions';
-import { button, choice, h, section, slider, tick } from './dom';
+import { button, choice, fileButton, h, section, slider, tick } from './dom';
 import { plotMethods } from './plot';
 import { modelUrl } from './gallery';
 import type { Morpher } from './morpher';
@@ -38,6 +38,13 @@ const COLORINGS: readonly (readonly [Coloring, string])[] = [
   ['granite', 'granite'],
   ['rust', 'rust'],
   ['clouds', 'clouds'],
+];
+const BESIDE_CHOICES: readonly (readonly [App['beside'], string])[] = [
+  ['none', 'nothing'],
+  ['catmull-clark', 'plain Catmull-Clark'],
+  ['loop', 'plain Loop'],
+  ['butterfly', 'Butterfly'],
+  ['modified-butterfly', 'Modified Butterfly'],
 ];
 const BANDS = ['up to 4 edges', '4 to 8', '8 to 16', 'the shape'];
 const FORMATS = ['obj', 'ply', 'off', 'stl', 'usda'] as const;
@@ -145,6 +152,11 @@ export class Panel {
         object.visible = checked;
         stage.touch();
       }).element;
+    const beside = choice('Beside it', BESIDE_CHOICES, (word) => {
+      app.beside = word;
+      const { work } = app;
+      if (work && app.report) void app.inOrder(() => app.showBeside(work));
+    });
     const seed = slider('Seed', { min: 1, max: 50, step: 1, value: 1 }, {
       change: (value) => {
         app.seed = value;
@@ -153,9 +165,10 @@ export class Panel {
       },
     });
     seed.element.hidden = true;
+    const measured = fileButton('Measure points', 'Points to measure from the surface', (name, bytes) => void app.measureDistances({ name, bytes }));
     const flat = tick('Without perspective', false, (checked) => void (stage.isFlat = checked));
     const views = (['front', 'right', 'top', 'home'] as const).map((view) => button(view[0]?.toUpperCase() + view.slice(1), () => stage.look(view)));
-    return section('Look', true, coloring.element, seed.element, this.command((work) => (isTexture(app.coloring) ? textureCommand(work, app.coloring, app.seed) : null)), show(stage.control.group, 'Control mesh'), show(stage.points.object, 'Points'), flat.element, h('div', { class: 'buttons' }, ...views));
+    return section('Look', true, coloring.element, beside.element, seed.element, this.command((work) => (isTexture(app.coloring) ? textureCommand(work, app.coloring, app.seed) : null)), show(stage.control.group, 'Control mesh'), show(stage.points.object, 'Points'), flat.element, h('div', { class: 'buttons' }, ...views), h('div', { class: 'buttons' }, measured.element));
   }
 
   private pointSection(): HTMLElement {
@@ -223,14 +236,7 @@ export class Panel {
 
   private morphSection(): HTMLElement {
     const { app, morpher } = this;
-    const input = h('input', {
-      type: 'file',
-      'aria-label': 'The shape to morph into',
-      onchange: () => {
-        const file = input.files?.[0];
-        if (file) void file.arrayBuffer().then((bytes) => morpher.open(file.name, new Uint8Array(bytes)));
-      },
-    });
+    const other = fileButton('Open the other shape', 'The shape to morph into', (name, bytes) => void morpher.open(name, bytes));
     const ball = async (): Promise<void> => {
       const url = modelUrl('creature-ball');
       if (url) await morpher.open('creature-ball.obj', new Uint8Array(await (await fetch(url)).arrayBuffer()));
@@ -239,7 +245,7 @@ export class Panel {
     const time = slider('Time', { min: 0, max: 1, step: 0.02, value: 0 }, { input: (value) => void morpher.preview(value), change: (value) => void morpher.keep(value) });
     this.needs(time.input, () => morpher.ready);
     const play = this.needs(button('Play', () => void morpher.play()), () => morpher.ready);
-    return section('Morph', false, h('p', { class: 'note' }, 'Into a mesh of the same faces: the overall shape moves first, then the detail.'), h('div', { class: 'buttons' }, h('span', { class: 'file' }, 'Open the other shape', input), example, play), time.element, this.command((work) => (morpher.ready ? morphCommand(work, morpher.name, time.input.valueAsNumber) : null)));
+    return section('Morph', false, h('p', { class: 'note' }, 'Into a mesh of the same faces: the overall shape moves first, then the detail.'), h('div', { class: 'buttons' }, other.element, example, play), time.element, this.command((work) => (morpher.ready ? morphCommand(work, morpher.name, time.input.valueAsNumber) : null)));
   }
 
   private fitSection(): HTMLElement {

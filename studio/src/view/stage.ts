@@ -2,6 +2,7 @@
 import CameraControls from 'camera-controls';
 import * as THREE from 'three';
 import type { Drawing, Field, Shape, Vec3 } from '../engine/types';
+import { CloudLayer } from './cloud_layer';
 import { ControlLayer } from './control_layer';
 import { PointsLayer } from './points_layer';
 import { SurfaceLayer } from './surface_layer';
@@ -22,12 +23,16 @@ const MANY_POINTS = 5000;
 const ROOM = 1.24;
 const FOOT = 0.13;
 const FEW_POINTS = 30;
+const BESIDE = 2;
 
 export class Stage {
   readonly canvas: HTMLCanvasElement;
   readonly surface = new SurfaceLayer();
   readonly control = new ControlLayer();
   readonly points = new PointsLayer();
+  readonly cloud = new CloudLayer();
+  /** A second surface, to the right of the first. */
+  private readonly second = new SurfaceLayer();
   private readonly renderer: THREE.WebGLRenderer;
   private readonly scene = new THREE.Scene();
   private readonly perspective = new THREE.PerspectiveCamera(32, 1, 0.01, 100);
@@ -44,7 +49,8 @@ export class Stage {
     this.canvas = canvas;
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
-    this.scene.add(this.surface.mesh, this.control.group, this.points.object);
+    this.scene.add(this.surface.mesh, this.control.group, this.points.object, this.cloud.object, this.second.mesh);
+    this.second.clear();
     this.controls = this.steer(this.perspective);
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement ?? canvas);
     this.resize();
@@ -128,7 +134,8 @@ export class Stage {
     this.look('home', false);
   }
 
-  look(view: View, smoothly = true): void {
+  /** The direction from the middle to the eye. */
+  private away(view: View): THREE.Vector3 {
     const up = new THREE.Vector3(...this.up);
     const front = Math.abs(up.y) > 0.5 ? new THREE.Vector3(0, 0, 1) : new THREE.Vector3(0, -1, 0);
     const right = new THREE.Vector3().crossVectors(up, front).normalize();
@@ -138,7 +145,12 @@ export class Stage {
       top: up.clone().addScaledVector(front, 1e-3),
       home: front.clone().addScaledVector(right, 0.75).addScaledVector(up, 0.55),
     };
-    const away = directions[view].normalize();
+    return directions[view].normalize();
+  }
+
+  look(view: View, smoothly = true): void {
+    const up = new THREE.Vector3(...this.up);
+    const away = this.away(view);
     const { target, half } = this.extent(away, up);
     const distance = half / Math.tan(THREE.MathUtils.degToRad(this.perspective.fov / 2)) + this.sphere.radius / 2;
     const eye = away.multiplyScalar(distance).add(target);
@@ -160,6 +172,12 @@ export class Stage {
       seen.set(at.dot(across), at.dot(upward));
       low.min(seen);
       high.max(seen);
+    }
+    if (this.second.mesh.visible) {
+      const aside = this.second.mesh.position;
+      seen.set(aside.dot(across), aside.dot(upward));
+      low.min(low.clone().add(seen));
+      high.max(high.clone().add(seen));
     }
     const middle = low.clone().add(high).multiplyScalar(0.5);
     const size = high.clone().sub(low);
@@ -193,6 +211,17 @@ export class Stage {
     this.control.draw(drawing);
     this.touch();
   }
+  /** Shows another surface beside the first, or with null none. */
+  drawBeside(drawing: Drawing | null): void {
+    const was = this.second.mesh.visible;
+    if (drawing) this.second.draw(drawing);
+    else this.second.clear();
+    const across = new THREE.Vector3().crossVectors(new THREE.Vector3(...this.up), this.away('home')).normalize();
+    this.second.mesh.position.copy(across.multiplyScalar(BESIDE * this.sphere.radius));
+    if (was !== this.second.mesh.visible) this.look('home');
+    this.touch();
+  }
+
   reshape(shape: Shape): void {
     this.surface.reshape(shape);
     this.control.move(shape.control);
@@ -212,6 +241,7 @@ export class Stage {
   clearSurface(): void {
     this.surface.clear();
     this.control.clear();
+    this.second.clear();
     this.touch();
   }
 

@@ -343,6 +343,34 @@ const tasks = {
     }
   },
 
+  async 'distances of other points are those of the tool'({ page }) {
+    await openModel(page, 'tripod');
+    await press(page, 'Interpolate');
+    const scan = join(scratch, 'tripod-scan.xyz');
+    writeFileSync(scan, readObj(readFileSync(`${models}tripod-scan.obj`, 'utf8')).points.map((point) => point.join(' ')).join('\n'));
+    await page.getByLabel('Points to measure from the surface').setInputFiles(scan);
+    await page.waitForFunction(() => (document.querySelector('[role=status]')?.textContent ?? '').includes('rms'));
+    const said = await status(page);
+    const report = join(scratch, 'distance.json');
+    tool('interpolate', `${models}tripod.obj`, '-o', join(scratch, 'surface.obj'));
+    tool('distance', scan, join(scratch, 'surface.obj'), '--report', report);
+    const { max } = JSON.parse(readFileSync(report, 'utf8'));
+    assert.ok(said.includes(`at most ${Number(max.toPrecision(4))},`), `${said} ${max}`);
+    await shoot(page, 'studio-distance');
+  },
+
+  async 'another scheme stands beside, with how far it leaves the points'({ page }) {
+    await openModel(page, 'pipe-joint');
+    await press(page, 'Interpolate');
+    await page.getByLabel('Beside it').selectOption('catmull-clark');
+    await page.waitForFunction(() => (document.querySelector('[role=status]')?.textContent ?? '').includes('leaves the points'));
+    await idle(page);
+    assert.match(await status(page), /by up to \d/);
+    await shoot(page, 'studio-beside');
+    await page.getByLabel('Beside it').selectOption('none');
+    await idle(page);
+  },
+
   async 'textures'({ page }) {
     await openModel(page, 'torus-knot');
     await press(page, 'Interpolate');
