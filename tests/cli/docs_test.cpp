@@ -31,7 +31,7 @@ std::vector<fs::path> pages() {
 }
 
 bool is_command(const std::string& line) {
-  static const std::regex command(R"(^(\./)?batten +(?!test\b|bench\b|python\b|blender\b)[-a-z].*)");
+  static const std::regex command(R"(^(\./)?batten +(?!test\b|bench\b|python\b|blender\b|studio\b)[-a-z].*)");
   return std::regex_match(line, command);
 }
 

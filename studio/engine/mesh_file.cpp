@@ -1,0 +1,120 @@
+#include "studio/engine/mesh_file.h"
+
+#include <algorithm>
+
+#include "batten/io/io.h"
+#include "batten/io/losses.h"
+#include "batten/mesh/check.h"
+#include "batten/mesh/repair.h"
+#include "batten/mesh/topology.h"
+#include "batten/mesh/up_axis.h"
+#include "batten/refine/refinement.h"
+#include "batten/tessellate/surface_mesh.h"
+
+namespace batten::studio {
+namespace {
+
+constexpr std::size_t kMessages = 3;
+
+std::vector<double> flat_creases(const Mesh& mesh) {
+  std::vector<double> flat;
+  for (const Crease& crease : mesh.creases)
+    flat.insert(flat.end(), {static_cast<double>(crease.a), static_cast<double>(crease.b), crease.sharpness});
+  return flat;
+}
+
+std::vector<double> flat_corners(const Mesh& mesh) {
+  std::vector<double> flat;
+  for (const Corner& corner : mesh.corners)
+    flat.insert(flat.end(), {static_cast<double>(corner.vertex), corner.sharpness});
+  return flat;
+}
+
+}  // namespace
+
+val MeshFile::contents() const {
+  val result = val::object();
+  result.set("points", typed_array(mesh_.points));
+  result.set("faceOffsets", typed_array(mesh_.face_offsets));
+  result.set("faceVertices", typed_array(mesh_.face_vertices));
+  result.set("creases", typed_array(flat_creases(mesh_)));
+  result.set("corners", typed_array(flat_corners(mesh_)));
+  result.set("notes", list(notes_, [](const std::string& note) { return val(note); }));
+  result.set("diagonal", bounding_diagonal(mesh_.points));
+  result.set("up", static_cast<int>(guess_up_axis(mesh_, UpAxis::Z)));
+  result.set("triangles", all_triangles(mesh_));
+  result.set("scheme", static_cast<int>(choose_scheme(mesh_).kind));
+  return result;
+}
+
+val MeshFile::problems() const {
+  return guarded([&] {
+    return list(check(mesh_, kMessages), [](const MeshProblem& problem) {
+      val one = val::object();
+      one.set("code", static_cast<int>(problem.kind));
+      one.set("count", static_cast<double>(problem.count));
+      one.set("messages", list(problem.messages, [](const std::string& message) { return val(message); }));
+      return one;
+    });
+  });
+}
+
+val MeshFile::set_points(const val& points) {
+  return guarded([&] {
+    Points given = to_points(points);
+    if (given.rows() != mesh_.points.rows()) throw Error(ErrorCode::BadShape, "a point for each vertex is needed");
+    mesh_.points = std::move(given);
+    return val::null();
+  });
+}
+
+val MeshFile::set_tags(const val& creases, const val& corners) {
+  return guarded([&] {
+    const std::vector<double> edges = emscripten::convertJSArrayToNumberVector<double>(creases);
+    const std::vector<double> vertices = emscripten::convertJSArrayToNumberVector<double>(corners);
+    mesh_.creases.clear();
+    for (std::size_t i = 0; i + 2 < edges.size(); i += 3)
+      mesh_.creases.push_back({static_cast<Index>(edges[i]), static_cast<Index>(edges[i + 1]), edges[i + 2]});
+    mesh_.corners.clear();
+    for (std::size_t i = 0; i + 1 < vertices.size(); i += 2)
+      mesh_.corners.push_back({static_cast<Index>(vertices[i]), vertices[i + 1]});
+    return val::null();
+  });
+}
+
+val MeshFile::repaired(double weld) const {
+  return guarded([&] {
+    RepairOptions options;
+    options.weld = weld;
+    RepairResult repaired = repair(mesh_, options);
+    val result = val::object();
+    result.set("changes", list(repaired.changes, [](const RepairChange& change) { return val(change.text); }));
+    result.set("mesh", std::make_shared<MeshFile>(std::move(repaired.mesh)));
+    return result;
+  });
+}
+
+val MeshFile::write(const std::string& path, int levels) const {
+  return guarded([&] {
+    Mesh refined;
+    if (levels >= 0) {
+      const Topology topology(mesh_);
+      refined = surface_mesh(topology, choose_scheme(mesh_), mesh_, levels);
+    }
+    const Mesh& written = levels >= 0 ? refined : mesh_;
+    write_mesh(path, written);
+    val result = val::object();
+    result.set("losses", list(find_losses(path, written), [](const std::string& loss) { return val(loss); }));
+    return result;
+  });
+}
+
+val read_mesh_file(const std::string& path, const val& report) {
+  return guarded([&] {
+    std::vector<std::string> notes;
+    Mesh mesh = read_mesh(path, "", progress_of(report), &notes);
+    return val(std::make_shared<MeshFile>(std::move(mesh), std::move(notes)));
+  });
+}
+
+}  // namespace batten::studio

@@ -1,0 +1,113 @@
+#include "studio/engine/operations.h"
+
+#include "batten/expand/bands.h"
+#include "batten/expand/denoise.h"
+#include "batten/expand/morph.h"
+#include "batten/fit/fit_surface.h"
+#include "batten/fit/mesh_samples.h"
+#include "batten/interpolate/method_comparison.h"
+#include "batten/mesh/topology.h"
+
+namespace batten::studio {
+namespace {
+
+Scheme scheme_of(const val& wishes) {
+  Scheme scheme;
+  scheme.kind = static_cast<SchemeKind>(wishes["scheme"].as<int>());
+  scheme.boundary = static_cast<BoundaryRule>(wishes["boundary"].as<int>());
+  return scheme;
+}
+
+/// The points of a file, with its normals where it has them.
+PointCloud cloud_of(const Mesh& mesh) {
+  PointCloud cloud;
+  cloud.points = mesh.points;
+  for (const Attribute& attribute : mesh.attributes)
+    if (attribute.name == "normal" && !attribute.per_corner() && attribute.values.rows() == mesh.points.rows())
+      cloud.normals = attribute.values.leftCols(3);
+  return cloud;
+}
+
+}  // namespace
+
+val denoised_points(const std::shared_ptr<MeshFile>& file, const val& wishes, int m, int passes, const val& report) {
+  return guarded([&] {
+    DenoiseOptions options;
+    options.m = m;
+    options.passes = passes;
+    const DenoiseResult denoised = denoise(file->mesh(), scheme_of(wishes), options, progress_of(report));
+    val result = val::object();
+    result.set("points", typed_array(denoised.points));
+    result.set("removed", denoised.removed);
+    return result;
+  });
+}
+
+val banded_points(const std::shared_ptr<MeshFile>& file, const val& wishes, const val& gains) {
+  return guarded([&] {
+    const Scheme scheme = scheme_of(wishes);
+    const std::vector<double> factors = emscripten::convertJSArrayToNumberVector<double>(gains);
+    const std::vector<Band> bands = octave_bands(scheme.kind, SeriesMatrix::Limit, static_cast<int>(factors.size()));
+    const MeshSeries series(Topology(file->mesh()), scheme);
+    const Equalized equalized = equalize(series, file->mesh().points, bands, factors);
+    val result = val::object();
+    result.set("points", typed_array(equalized.values));
+    result.set("energies", typed_array(equalized.energies));
+    return result;
+  });
+}
+
+val morphed_points(const std::shared_ptr<MeshFile>& from, const std::shared_ptr<MeshFile>& to, const val& wishes,
+                   double t) {
+  return guarded([&] {
+    if (from->mesh().face_vertices != to->mesh().face_vertices || from->mesh().face_offsets != to->mesh().face_offsets)
+      throw Error(ErrorCode::BadShape, "the two meshes have different faces: a morph needs the same faces in both");
+    const MeshSeries series(Topology(from->mesh()), scheme_of(wishes));
+    const Morph morph(series, from->mesh().points, to->mesh().points);
+    val result = val::object();
+    result.set("points", typed_array(morph.at(t)));
+    return result;
+  });
+}
+
+val compared_methods(const std::shared_ptr<MeshFile>& file, const val& wishes, const val& report) {
+  return guarded([&] {
+    const std::vector<MethodResult> methods =
+        compare_methods(Topology(file->mesh()), scheme_of(wishes), {}, file->mesh().points, progress_of(report));
+    return list(methods, [](const MethodResult& method) {
+      val one = val::object();
+      one.set("name", method.name);
+      one.set("failure", method.failure);
+      one.set("iterations", method.report.iterations);
+      one.set("seconds", method.solve_seconds);
+      one.set("maxError", method.max_error);
+      one.set("residuals", typed_array(method.report.residual_history));
+      one.set("measuredAfter", typed_array(method.report.measured_after));
+      return one;
+    });
+  });
+}
+
+val fitted(const std::shared_ptr<MeshFile>& points, int vertices, double tolerance, const val& report) {
+  return guarded([&] {
+    FitOptions options;
+    options.vertices = vertices;
+    options.tolerance = tolerance;
+    FitResult fit = fit_surface(cloud_of(points->mesh()), options, progress_of(report));
+    val result = val::object();
+    result.set("rms", fit.report.to_surface.rms);
+    result.set("max", fit.report.to_surface.max);
+    result.set("outliers", fit.report.outliers);
+    result.set("rounds", list(fit.report.rounds, [](const FitRound& round) {
+                 val one = val::object();
+                 one.set("vertices", round.vertices);
+                 one.set("rms", round.rms);
+                 one.set("max", round.max);
+                 return one;
+               }));
+    result.set("mesh", std::make_shared<MeshFile>(std::move(fit.mesh)));
+    return result;
+  });
+}
+
+}  // namespace batten::studio

@@ -1,0 +1,241 @@
+#include "studio/engine/surface.h"
+
+#include <algorithm>
+
+#include "batten/interpolate/fair_mesh.h"
+#include "batten/mesh/vertex_fields.h"
+
+namespace batten::studio {
+namespace {
+
+/// About as many faces as a screen shows, and as software draws in time.
+constexpr double kDrawnFaces = 120'000.0;
+constexpr int kMostLevels = 4;
+
+int drawn_levels(const Topology& topology) {
+  int levels = 1;
+  for (double faces = 16.0 * topology.face_count(); faces < kDrawnFaces && levels < kMostLevels; faces *= 4.0) ++levels;
+  return levels;
+}
+
+std::vector<std::uint32_t> triangles_of(const Tessellator& tessellator) {
+  const Index size = tessellator.face_size();
+  Buffer<Index> faces(static_cast<std::size_t>(tessellator.face_count()) * static_cast<std::size_t>(size));
+  tessellator.faces(faces);
+  std::vector<std::uint32_t> triangles;
+  triangles.reserve(faces.size() / static_cast<std::size_t>(size) * static_cast<std::size_t>(3 * (size - 2)));
+  for (std::size_t i = 0; i < faces.size(); i += static_cast<std::size_t>(size))
+    for (std::size_t k = 2; k < static_cast<std::size_t>(size); ++k)
+      for (const Index vertex : {faces[i], faces[i + k - 1], faces[i + k]})
+        triangles.push_back(static_cast<std::uint32_t>(vertex));
+  return triangles;
+}
+
+}  // namespace
+
+Surface::Surface(std::shared_ptr<const MeshFile> file, const SurfaceWishes& wishes, const Progress& progress)
+    : file_(std::move(file)),
+      wishes_(wishes),
+      given_(file_->mesh(), progress),
+      targets_(file_->mesh().points),
+      topology_(given_),
+      scheme_(wishes.scheme),
+      control_(targets_) {
+  if (given_.face_count() == 0)
+    throw Error(ErrorCode::BadArgument, "there are no faces: fit a surface to these points");
+  solve(progress);
+}
+
+void Surface::solve(const Progress& progress) {
+  if (!wishes_.interpolated || is_interpolating(scheme_.kind)) {
+    control_ = targets_;
+    return;
+  }
+  if (wishes_.fair) {
+    solve_fairly(progress);
+    return;
+  }
+  if (!interpolator_) interpolator_.emplace(given_, wishes_.scheme, InterpolateOptions(), progress);
+  Interpolant result = interpolator_->solve(targets_, progress);
+  topology_ = result.topology;
+  scheme_ = result.scheme;
+  control_ = std::move(result.control);
+  solved_ = std::move(result.report);
+}
+
+void Surface::solve_fairly(const Progress& progress) {
+  FairOptions options;
+  options.smoothing = wishes_.smoothing;
+  FairInterpolant result = interpolate_fairly(given_, wishes_.scheme, targets_, options, progress);
+  topology_ = result.topology;
+  scheme_ = result.scheme;
+  control_ = std::move(result.control);
+  solved_.emplace();
+  solved_->solve = result.report.solve;
+  solved_->diagonal = result.report.diagonal;
+  solved_->max_error = result.report.max_error;
+  solved_->rms_error = result.report.rms_error;
+  solved_->worst.push_back({result.report.worst_vertex, result.report.max_error});
+}
+
+void Surface::prepare() {
+  const auto vertices = tessellator_ ? static_cast<Index>(points_.size() / 3) : 0;
+  if (tessellator_ && vertices == tessellator_->vertex_count() &&
+      patches_->topology().vertex_count() == control_.rows())
+    return;
+  levels_ = wishes_.levels > 0 ? wishes_.levels : drawn_levels(topology_);
+  patches_.emplace(topology_, scheme_);
+  tessellator_.emplace(*patches_, levels_);
+  limit_.reset();
+  nearest_.reset();
+  points_.resize(3 * static_cast<std::size_t>(tessellator_->vertex_count()));
+  normals_.resize(points_.size());
+}
+
+val Surface::report() const {
+  val result = val::object();
+  result.set("vertices", topology_.vertex_count());
+  result.set("faces", topology_.face_count());
+  result.set("points", given_.vertex_count());
+  result.set("isRefined", topology_.vertex_count() != given_.vertex_count());
+  result.set("diagonal", bounding_diagonal(targets_));
+  result.set("scheme", std::string(scheme_name(scheme_.kind)));
+  result.set("levels", levels_);
+  if (!solved_) return result;
+  result.set("maxError", solved_->max_error);
+  result.set("rmsError", solved_->rms_error);
+  result.set("maxMovement", (control_.topRows(targets_.rows()) - targets_).rowwise().norm().maxCoeff());
+  result.set("method", std::string(solved_->solve.method_name));
+  result.set("iterations", solved_->solve.iterations);
+  result.set("seconds", solved_->solve.seconds);
+  result.set("residuals", typed_array(solved_->solve.residual_history));
+  result.set("measuredAfter", typed_array(solved_->solve.measured_after));
+  result.set("singular", static_cast<double>(solved_->singular.size()));
+  return result;
+}
+
+val Surface::drawing() {
+  return guarded([&] {
+    prepare();
+    val result = shape();
+    result.set("triangles", typed_array(triangles_of(*tessellator_)));
+    std::vector<std::uint32_t> edges;
+    std::vector<float> sharpness;
+    for (Index edge = 0; edge < topology_.edge_count(); ++edge) {
+      const Index half_edge = topology_.edge_half_edge(edge);
+      edges.push_back(static_cast<std::uint32_t>(topology_.origin(half_edge)));
+      edges.push_back(static_cast<std::uint32_t>(topology_.destination(half_edge)));
+      sharpness.push_back(static_cast<float>(crease_sharpness(topology_, edge)));
+    }
+    result.set("edges", typed_array(edges));
+    result.set("sharpness", typed_array(sharpness));
+    return result;
+  });
+}
+
+val Surface::shape() {
+  return guarded([&] {
+    prepare();
+    tessellator_->limit<float>(control_, points_, normals_);
+    val result = val::object();
+    result.set("points", typed_array(points_));
+    result.set("normals", typed_array(normals_));
+    result.set("control", typed_array(to_floats(control_)));
+    return result;
+  });
+}
+
+void Surface::take(const InterpolationUpdates& updates) {
+  topology_ = updates.topology();
+  scheme_ = updates.scheme();
+  if (control_.rows() != updates.control().rows() ||
+      updates.moved().size() > static_cast<std::size_t>(control_.rows()) / 8) {
+    control_ = updates.control();
+    return;
+  }
+  for (const Index vertex : updates.moved()) control_.row(vertex) = updates.control().row(vertex);
+}
+
+val Surface::move(int vertex, double x, double y, double z, int rings) {
+  return guarded([&] {
+    if (vertex < 0 || vertex >= targets_.rows()) throw Error(ErrorCode::IndexOutOfRange, "there is no such point");
+    const Eigen::RowVector3d target(x, y, z);
+    val result = val::object();
+    is_current_ = false;
+    if (!interpolator_) {
+      targets_.row(vertex) = target;
+      solve({});
+      return result;
+    }
+    if (!updates_) {
+      updates_.emplace(*interpolator_, targets_);
+      control_ = updates_->control();
+    }
+    const Index rows[] = {static_cast<Index>(vertex)};
+    const UpdateReport report =
+        rings > 0 ? updates_->update_within(rings, rows, target) : updates_->update(rows, target);
+    take(*updates_);
+    if (rings > 0) {
+      targets_ = updates_->targets();
+    } else {
+      targets_.row(vertex) = target;
+    }
+    solved_->max_error = report.error_bound;
+    result.set("moved", report.moved);
+    result.set("local", report.is_local);
+    result.set("maxError", report.error_bound);
+    result.set("missed", report.missed);
+    return result;
+  });
+}
+
+val Surface::set_control(const val& points) {
+  return guarded([&] {
+    const Points control = to_points(points);
+    if (control.rows() != control_.rows())
+      throw Error(ErrorCode::BadShape, "a point for each control vertex is needed");
+    control_ = control;
+    is_current_ = false;
+    return val::null();
+  });
+}
+
+val Surface::limit_points() const {
+  return guarded([&] {
+    const Points limits = LimitMatrix(topology_, scheme_).apply(control_).topRows(given_.vertex_count());
+    return typed_array(limits);
+  });
+}
+
+Mesh Surface::control_mesh() const {
+  Mesh mesh = file_->mesh();
+  mesh.points = targets_;
+  if (interpolator_) return interpolate(*interpolator_, std::move(mesh)).mesh;
+  if (wishes_.fair && wishes_.interpolated && !is_interpolating(wishes_.scheme.kind)) {
+    FairOptions options;
+    options.smoothing = wishes_.smoothing;
+    return interpolate_fairly(given_, wishes_.scheme, std::move(mesh), AttributeRule::Interpolated, options).mesh;
+  }
+  state_scheme(wishes_.scheme, mesh);
+  return mesh;
+}
+
+val Surface::control_file() const {
+  return guarded([&] { return val(std::make_shared<MeshFile>(control_mesh())); });
+}
+
+val make_surface(const std::shared_ptr<MeshFile>& file, const val& wishes, const val& report) {
+  return guarded([&] {
+    SurfaceWishes asked;
+    asked.scheme.kind = static_cast<SchemeKind>(wishes["scheme"].as<int>());
+    asked.scheme.boundary = static_cast<BoundaryRule>(wishes["boundary"].as<int>());
+    asked.scheme.alpha = wishes["alpha"].as<double>();
+    asked.interpolated = wishes["interpolate"].as<bool>();
+    asked.fair = wishes["fair"].as<bool>();
+    asked.smoothing = wishes["smoothing"].as<double>();
+    asked.levels = wishes["levels"].as<int>();
+    return val(std::make_shared<Surface>(file, asked, progress_of(report)));
+  });
+}
+
+}  // namespace batten::studio

@@ -1,0 +1,246 @@
+/** One mesh at work in the engine. Runs in a Worker (worker.ts) and, for tests, in Node. */
+import type { EngineModule, Elastic, MeshFile, ReportProgress, Surface } from './module';
+import { got } from './module';
+import type { Contents, Corner, Crease, Drawing, ElasticWishes, Field, FitRound, Measure, Method, Moved, Probe, Problem, Report, Shape, SurfaceWishes, Vec3, Written } from './types';
+
+export interface Shown {
+  report: Report;
+  drawing: Drawing;
+}
+export interface Fitted {
+  contents: Contents;
+  rms: number;
+  max: number;
+  outliers: number;
+  rounds: FitRound[];
+}
+
+/** The end of a file's name, which tells its format; the engine's own name has nothing else of it. */
+function engineName(name: string): string {
+  const match = /\.([A-Za-z0-9]{1,5})$/.exec(name);
+  return `/input.${match?.[1]?.toLowerCase() ?? 'obj'}`;
+}
+
+export class Engine {
+  private file: MeshFile | null = null;
+  private second: MeshFile | null = null;
+  private surface: Surface | null = null;
+  private elastic: Elastic | null = null;
+  private sculpted: Surface | null = null;
+
+  constructor(
+    private readonly module: EngineModule,
+    private readonly report: ReportProgress,
+  ) {}
+
+  private get mesh(): MeshFile {
+    if (!this.file) throw new Error('open a file first');
+    return this.file;
+  }
+  private get shown(): Surface {
+    if (!this.surface) throw new Error('there is no surface yet');
+    return this.surface;
+  }
+
+  private read(name: string, bytes: Uint8Array): MeshFile {
+    const path = engineName(name);
+    this.module.FS.writeFile(path, bytes);
+    try {
+      return got(this.module.readMesh(path, this.report));
+    } catch (error) {
+      if (error instanceof Error) error.message = error.message.replaceAll(path, name);
+      throw error;
+    } finally {
+      this.module.FS.unlink(path);
+    }
+  }
+
+  private take(file: MeshFile): Contents {
+    this.close();
+    this.file = file;
+    return file.contents();
+  }
+
+  close(): void {
+    this.endSculpting();
+    this.surface?.delete();
+    this.file?.delete();
+    this.surface = null;
+    this.file = null;
+  }
+
+  open(name: string, bytes: Uint8Array): Contents {
+    const file = this.read(name, bytes);
+    return this.take(file);
+  }
+
+  /** A mesh beside the first: the end of a morph. */
+  openSecond(name: string, bytes: Uint8Array): Contents {
+    const file = this.read(name, bytes);
+    this.second?.delete();
+    this.second = file;
+    return file.contents();
+  }
+
+  problems(): Problem[] {
+    return got(this.mesh.problems());
+  }
+
+  repair(weld: number): { changes: string[]; contents: Contents } {
+    const repaired = got(this.mesh.repaired(weld));
+    return { changes: repaired.changes, contents: this.take(repaired.mesh) };
+  }
+
+  setPoints(points: Float64Array): void {
+    got(this.mesh.setPoints(points));
+  }
+
+  setTags(creases: readonly Crease[], corners: readonly Corner[]): void {
+    got(this.mesh.setTags(
+      Float64Array.from(creases.flatMap((crease) => [crease.a, crease.b, crease.sharpness])),
+      Float64Array.from(corners.flatMap((corner) => [corner.vertex, corner.sharpness])),
+    ));
+  }
+
+  show(wishes: SurfaceWishes): Shown {
+    const surface = got(this.module.makeSurface(this.mesh, wishes, this.report));
+    this.endSculpting();
+    this.surface?.delete();
+    this.surface = surface;
+    const drawing = got(surface.drawing());
+    return { report: surface.report(), drawing };
+  }
+
+  /** Another surface of the same mesh, to be drawn beside the first. */
+  beside(wishes: SurfaceWishes): Shown {
+    const other = got(this.module.makeSurface(this.mesh, wishes, this.report));
+    try {
+      return { report: other.report(), drawing: got(other.drawing()) };
+    } finally {
+      other.delete();
+    }
+  }
+
+  /** Moves one point; the surface follows. The file's points follow by setPoints(), when the drag ends. */
+  move(vertex: number, to: Vec3, rings: number): Moved {
+    const begin = performance.now();
+    const report = got(this.shown.move(vertex, to[0], to[1], to[2], rings));
+    const solved = performance.now();
+    const shape = got(this.shown.shape());
+    return { ...shape, ...report, solveMs: solved - begin, drawMs: performance.now() - solved };
+  }
+
+  field(measure: Measure): Field {
+    return got(this.shown.field(measure));
+  }
+
+  /** sRGB of each vertex drawn; preset: a place in PRESETS. */
+  texture(preset: number, seed: number): Float32Array {
+    return got(this.shown.texture(preset, seed));
+  }
+
+  /** Bytes that the engine has taken; it never gives them back but uses them again. */
+  memory(): number {
+    return this.module.HEAPU8.length;
+  }
+
+  probe(at: Vec3): Probe {
+    return got(this.shown.probe(at[0], at[1], at[2]));
+  }
+
+  /** How far the points of another file are from the surface. */
+  distances(name: string, bytes: Uint8Array): { points: Float64Array; field: Field } {
+    const file = this.read(name, bytes);
+    try {
+      const { points } = file.contents();
+      return { points, field: got(this.shown.distances(points)) };
+    } finally {
+      file.delete();
+    }
+  }
+
+  /** The control mesh as a file, or with `levels` 0 or more the surface as a mesh. */
+  write(format: string, levels: number): Written {
+    const control = this.surface ? got(this.surface.controlFile()) : null;
+    const path = `/output.${format}`;
+    try {
+      const { losses } = got((control ?? this.mesh).write(path, levels));
+      return { bytes: this.module.FS.readFile(path), losses };
+    } finally {
+      control?.delete();
+    }
+  }
+
+  /** The mesh given, with all its tags. */
+  writeMesh(): Uint8Array<ArrayBuffer> {
+    got(this.mesh.write('/mesh.obj', -1));
+    return this.module.FS.readFile('/mesh.obj');
+  }
+
+  methods(wishes: SurfaceWishes): Method[] {
+    return got(this.module.comparedMethods(this.mesh, wishes, this.report));
+  }
+
+  denoise(wishes: SurfaceWishes, m: number, passes: number): { points: Float64Array; removed: number } {
+    return got(this.module.denoisedPoints(this.mesh, wishes, m, passes, this.report));
+  }
+
+  bands(wishes: SurfaceWishes, gains: readonly number[]): { points: Float64Array; energies: Float64Array } {
+    return got(this.module.bandedPoints(this.mesh, wishes, [...gains]));
+  }
+
+  /** from: the points at time 0, on the faces of the mesh. */
+  morph(from: Float64Array, wishes: SurfaceWishes, time: number): Float64Array {
+    if (!this.second) throw new Error('open the shape to morph into first');
+    got(this.mesh.setPoints(from));
+    return got(this.module.morphedPoints(this.mesh, this.second, wishes, time)).points;
+  }
+
+  fit(vertices: number, tolerance: number): Fitted {
+    const fitted = got(this.module.fitted(this.mesh, vertices, tolerance, this.report));
+    const { rms, max, outliers, rounds } = fitted;
+    return { contents: this.take(fitted.mesh), rms, max, outliers, rounds };
+  }
+
+  /** The body is the control mesh of the surface that is shown. */
+  startSculpting(wishes: ElasticWishes): Shown {
+    this.endSculpting();
+    const control = got(this.shown.controlFile());
+    try {
+      this.elastic = got(this.module.makeElastic(control, wishes));
+      const plain: SurfaceWishes = { scheme: wishes.scheme, boundary: wishes.boundary, alpha: 0, interpolate: false, fair: false, smoothing: 0, levels: 0 };
+      this.sculpted = got(this.module.makeSurface(control, plain, null));
+      return { report: this.sculpted.report(), drawing: got(this.sculpted.drawing()) };
+    } finally {
+      control.delete();
+    }
+  }
+  grab(at: Vec3, stiffness: number): void {
+    if (this.elastic) got(this.elastic.grab(at[0], at[1], at[2], stiffness));
+  }
+  pull(to: Vec3): void {
+    if (this.elastic) got(this.elastic.pull(to[0], to[1], to[2]));
+  }
+  release(): void {
+    if (this.elastic) got(this.elastic.release());
+  }
+  stepSculpture(count: number): Shape & { kinetic: number; ms: number } {
+    if (!this.elastic || !this.sculpted) throw new Error('nothing is being sculpted');
+    const begin = performance.now();
+    const { kinetic } = got(this.elastic.step(count));
+    const ms = performance.now() - begin;
+    got(this.sculpted.setControl(got(this.elastic.control())));
+    return { ...got(this.sculpted.shape()), kinetic, ms };
+  }
+  /** The points through which the sculpted surface passes, or its control points. */
+  sculptedPoints(interpolated: boolean): Float64Array {
+    if (!this.elastic || !this.sculpted) throw new Error('nothing is being sculpted');
+    return interpolated ? got(this.sculpted.limitPoints()) : got(this.elastic.control());
+  }
+  endSculpting(): void {
+    this.elastic?.delete();
+    this.sculpted?.delete();
+    this.elastic = null;
+    this.sculpted = null;
+  }
+}

@@ -1,0 +1,31 @@
+/** The Worker: loads the engine and answers by comlink. */
+import * as Comlink from 'comlink';
+import createEngine from '@engine/engine.js';
+import wasmUrl from '@engine/engine.wasm?url';
+import { Engine } from './engine';
+import type { EngineModule } from './module';
+
+/** Stop is written by the page where memory can be shared; elsewhere the page ends this Worker. */
+let stop: Int32Array | null = null;
+let tell: ((done: number) => void) | null = null;
+let told = 0;
+
+function report(done: number): boolean {
+  const now = performance.now();
+  if (tell && now - told > 100) {
+    told = now;
+    tell(done);
+  }
+  return !stop || Atomics.load(stop, 0) === 0;
+}
+
+const host = {
+  async start(shared: Int32Array | null, progress: (done: number) => void): Promise<Engine & Comlink.ProxyMarked> {
+    stop = shared;
+    tell = progress;
+    const module = (await createEngine({ locateFile: () => wasmUrl })) as EngineModule;
+    return Comlink.proxy(new Engine(module, report));
+  },
+};
+export type Host = typeof host;
+Comlink.expose(host);

@@ -1,0 +1,156 @@
+// The engine under Node, against closed forms and identities.
+import { readFileSync } from 'node:fs';
+import { beforeAll, describe, expect, it } from 'vitest';
+import createEngine from '@engine/engine.js';
+import { Engine } from '../../src/engine/engine';
+import type { EngineModule } from '../../src/engine/module';
+import type { SurfaceWishes } from '../../src/engine/types';
+import { EngineError } from '../../src/engine/types';
+
+const root = new URL('../../../', import.meta.url);
+const PLAIN: SurfaceWishes = { scheme: 0, boundary: 2, alpha: 0, interpolate: true, fair: false, smoothing: 0, levels: 2 };
+let engine: Engine;
+
+function model(name: string): Uint8Array {
+  return readFileSync(new URL(`models/${name}.obj`, root));
+}
+function text(content: string): Uint8Array {
+  return new TextEncoder().encode(content);
+}
+function distance(a: ArrayLike<number>, i: number, b: ArrayLike<number>, j: number): number {
+  return Math.hypot(...[0, 1, 2].map((k) => (a[3 * i + k] ?? NaN) - (b[3 * j + k] ?? NaN)));
+}
+
+beforeAll(async () => {
+  const wasmBinary = readFileSync(new URL('build/studio/studio/engine/engine.wasm', root));
+  engine = new Engine((await createEngine({ wasmBinary })) as EngineModule, null);
+});
+
+describe('interpolation', () => {
+  it.each(['tripod', 'bracket', 'creature', 'cube', 'icosahedron'])('passes through the points of %s', (name) => {
+    const { points, diagonal } = engine.open(`${name}.obj`, model(name));
+    const { report, drawing } = engine.show({ ...PLAIN, scheme: name === 'icosahedron' ? 1 : 0 });
+    expect(report.maxError).toBeLessThan(1e-9 * diagonal);
+    // Vertex i of the picture is point i; floats have 24 bits.
+    for (let i = 0; i < points.length / 3; ++i) expect(distance(drawing.points, i, points, i)).toBeLessThan(3e-7 * diagonal);
+  });
+
+  it('follows a dragged point to where a whole solve of the moved points leads', () => {
+    const { points } = engine.open('tripod.obj', model('tripod'));
+    engine.show(PLAIN);
+    const to = [points[30] ?? 0, points[31] ?? 0, (points[32] ?? 0) + 0.1] as const;
+    engine.move(10, [to[0], to[1], to[2] + 0.2], 0);
+    const moved = engine.move(10, to, 0);
+    points.set(to, 30);
+    engine.setPoints(points);
+    const solved = engine.show(PLAIN).drawing;
+    for (let i = 0; i < solved.control.length; ++i) expect(Math.abs((moved.control[i] ?? NaN) - (solved.control[i] ?? NaN))).toBeLessThan(1e-6);
+    expect(distance(moved.points, 10, to, 0)).toBeLessThan(1e-6);
+  });
+});
+
+describe('places', () => {
+  it('lie on the surface, with unit normals and curvatures that belong together', () => {
+    const { points } = engine.open('creature.obj', model('creature'));
+    engine.show(PLAIN);
+    const found = engine.probe([points[0] ?? 0, points[1] ?? 0, points[2] ?? 0]);
+    expect(found.distance).toBeLessThan(1e-8);
+    expect(Math.hypot(...found.normal)).toBeCloseTo(1, 12);
+    const between = engine.probe([5, 1, 3]);
+    expect(between.mean).toBeCloseTo((between.greatest + between.least) / 2, 9);
+    expect(between.gaussian).toBeCloseTo(between.greatest * between.least, 8);
+  });
+});
+
+describe('colours', () => {
+  it('have a place on the bar for each vertex drawn', () => {
+    engine.open('tripod.obj', model('tripod'));
+    const { drawing } = engine.show(PLAIN);
+    for (const measure of ['error', 'moved', 'mean', 'gaussian', 'valence', 'sharpness'] as const) {
+      const field = engine.field(measure);
+      expect(field.positions).toHaveLength(drawing.points.length / 3);
+      expect(Math.max(...field.numbers)).toBeCloseTo(field.scale.highest, 12);
+      expect(field.scale.colors).toHaveLength(3 * 256);
+    }
+  });
+});
+
+describe('tags', () => {
+  it('make the surface sharp where they are: a creased cube stays a cube', () => {
+    const { faceVertices } = engine.open('cube.obj', model('cube'));
+    const creases = [...faceVertices].map((a, i) => ({ a, b: faceVertices[i % 4 === 3 ? i - 3 : i + 1] ?? 0, sharpness: 10 })).filter(({ a, b }) => a < b);
+    expect(creases).toHaveLength(12);
+    engine.setTags(creases, []);
+    const { drawing } = engine.show({ ...PLAIN, interpolate: false });
+    const flat = [...drawing.points].filter((_, i) => i % 3 === 0).map(Math.abs);
+    const corner = Math.max(...flat);
+    // Every vertex lies on one of the six planes.
+    for (let i = 0; i < drawing.points.length; i += 3) {
+      const farthest = Math.max(...[0, 1, 2].map((k) => Math.abs(drawing.points[i + k] ?? NaN)));
+      expect(farthest).toBeCloseTo(corner, 6);
+    }
+  });
+});
+
+describe('elastic surfaces', () => {
+  it('stay at rest when nothing pulls, and come towards the hand', () => {
+    engine.open('icosahedron.obj', model('icosahedron'));
+    engine.show({ ...PLAIN, scheme: 1, interpolate: false });
+    const material = { scheme: 1, boundary: 2, tension: 100, rigidity: 1, damping: 1, pressure: 0, gravity: 0, floor: false, holdBoundary: true };
+    const { drawing } = engine.startSculpting(material);
+    const still = engine.stepSculpture(5);
+    for (let i = 0; i < still.control.length; ++i) expect(still.control[i]).toBeCloseTo(drawing.control[i] ?? NaN, 5);
+    const top = [drawing.points[0] ?? 0, drawing.points[1] ?? 0, drawing.points[2] ?? 0] as const;
+    engine.grab(top, 400);
+    const hand = [2 * top[0], 2 * top[1], 2 * top[2]] as const;
+    engine.pull(hand);
+    const pulled = engine.stepSculpture(30);
+    expect(distance(pulled.points, 0, hand, 0)).toBeLessThan(0.8 * distance(top, 0, hand, 0));
+    engine.endSculpting();
+  });
+});
+
+describe('broken input', () => {
+  it.each([
+    ['words.obj', 'v 1 2\nf 1 2 3\n'],
+    ['range.obj', 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n'],
+    ['nan.obj', 'v 0 0 nan\n'],
+    ['huge.ply', 'ply\nformat binary_little_endian 1.0\nelement vertex 1000000000\nproperty double x\nproperty double y\nproperty double z\nend_header\nabc'],
+    ['short.stl', 'solid x\nfacet'],
+    ['kind.xyz', '1 2 three\n'],
+    ['kind.doc', 'hello'],
+  ])('%s is refused with a sentence that names it, and the engine goes on', (name, content) => {
+    expect(() => engine.open(name, text(content))).toThrowError(EngineError);
+    try {
+      engine.open(name, text(content));
+    } catch (error) {
+      expect(String(error)).toContain(name);
+    }
+    expect(engine.open('cube.obj', model('cube')).points).toHaveLength(24);
+  });
+
+  it('is repaired', () => {
+    engine.open('broken-tripod.obj', model('broken-tripod'));
+    expect(engine.problems().length).toBeGreaterThan(0);
+    expect(engine.repair(0).changes.length).toBeGreaterThan(0);
+    expect(engine.problems()).toEqual([]);
+    expect(engine.show(PLAIN).report.maxError).toBeLessThan(1e-8);
+  });
+});
+
+describe('operations', () => {
+  it('bands with gains of 1 change no bit', () => {
+    const { points } = engine.open('creature.obj', model('creature'));
+    expect(engine.bands(PLAIN, [1, 1, 1, 1]).points).toEqual(points);
+  });
+  it('a morph begins and ends at its shapes', () => {
+    const { points } = engine.open('creature.obj', model('creature'));
+    const end = engine.openSecond('creature-ball.obj', model('creature-ball'));
+    expect(engine.morph(points, PLAIN, 0)).toEqual(points);
+    expect(engine.morph(points, PLAIN, 1)).toEqual(end.points);
+  });
+  it('compares the iterations of the papers with ours', () => {
+    engine.open('tripod.obj', model('tripod'));
+    expect(engine.methods(PLAIN).map((method) => method.name)).toEqual(['Batten', 'Thall 2002', 'Lai and Cheng 2006', 'direct']);
+  });
+});
