@@ -13,6 +13,7 @@ from . import _native
 from .errors import Error
 from .mesh import Array, Mesh, as_mesh, points_array
 from .progress import Progress, callback
+from .rebuilt import Rebuilt
 from .reports import EquilibriumReport, MotionMeasure
 from .surface import sparse_rows
 
@@ -40,7 +41,7 @@ class Place:
     target: Vector
 
 
-class SurfaceEnergy:
+class SurfaceEnergy(Rebuilt):
     """Energies of a limit surface as quadratic forms of its control points, 1/2 sum p^T K p over the columns.
 
     Args:
@@ -72,7 +73,7 @@ class SurfaceEnergy:
         return self._native.energy(kind, np.ascontiguousarray(control, dtype=np.float64))
 
 
-class ElasticSurface:
+class ElasticSurface(Rebuilt):
     """A body: mass, damping, stretching and bending of the limit surface of ``mesh``, at rest in its shape.
 
     Args:
@@ -139,7 +140,7 @@ def _arrays(places: abc.Sequence[Place]) -> tuple[Any, Any, Any]:
     )
 
 
-class ElasticMotion:
+class ElasticMotion(Rebuilt):
     """A body in time, starting at rest. Any step is stable, however stiff the springs.
 
     Args:
@@ -194,6 +195,14 @@ class ElasticMotion:
             loads.hold(np.atleast_1d(np.asarray(held, dtype=np.int32)))
         self._native = _native.Motion(loads, float(step), scheme)
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        if self._made_of is None:
+            raise TypeError("a refined motion depends on its past; pickle the one that it comes from")
+        return (*super().__reduce__(), (self.time, self.positions, self.velocities))
+
+    def __setstate__(self, state: tuple[float, Array, Array]) -> None:
+        self.set_state(*state)
+
     def step(self, count: int = 1, *, progress: Progress = None) -> None:
         """Goes on by so many steps."""
         if count < 0:
@@ -206,7 +215,8 @@ class ElasticMotion:
 
     def refined(self, *, progress: Progress = None) -> "ElasticMotion":
         """The same motion on the control mesh refined once: the surface, its springs and supports stay."""
-        result = ElasticMotion.__new__(ElasticMotion)
+        result: ElasticMotion = ElasticMotion.__new__(ElasticMotion)
+        result._made_of = None
         result._native = self._native.refined(callback(progress))
         return result
 

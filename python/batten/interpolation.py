@@ -12,6 +12,7 @@ from . import _native
 from .errors import Error
 from .mesh import Array, Indices, Mesh, as_mesh, points_array
 from .progress import Progress, callback
+from .rebuilt import Rebuilt
 from .reports import FairReport, InterpolationReport, UpdateReport
 
 
@@ -43,7 +44,7 @@ class Interpolant:
         return self.mesh.points
 
 
-class Interpolator:
+class Interpolator(Rebuilt):
     """Solves for control points again and again, for targets on the same connectivity.
 
     Args:
@@ -68,22 +69,10 @@ class Interpolator:
         progress: Progress = None,
     ) -> None:
         self._mesh = as_mesh(mesh)
-        self._options = (scheme, boundary, float(tolerance), method, on_singular)
-        self._make(progress)
-
-    def _make(self, progress: Progress = None) -> None:
-        scheme, boundary, tolerance, method, on_singular = self._options
-        self._topology, self._rules = self._mesh._surface(scheme, boundary)
+        topology, rules = self._mesh._surface(scheme, boundary)
         self._native = _native.Interpolator(
-            self._topology, self._rules, tolerance, method, on_singular, callback(progress)
+            topology, rules, float(tolerance), method, on_singular, callback(progress)
         )
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {"_mesh": self._mesh, "_options": self._options}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__dict__.update(state)
-        self._make()
 
     @property
     def mesh(self) -> Mesh:
@@ -118,11 +107,15 @@ class Interpolator:
         return Updates(self, targets, progress=progress)
 
 
-class Updates:
+class Updates(Rebuilt):
     """A surface whose targets move: see Interpolator.updates."""
 
     def __init__(self, interpolator: Interpolator, targets: npt.ArrayLike, *, progress: Progress = None) -> None:
+        self._interpolator = interpolator
         self._native = _native.Updates(interpolator._native, points_array(targets, "targets"), callback(progress))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (Updates, (self._interpolator, self.targets))
 
     def update(
         self, rows: npt.ArrayLike, targets: npt.ArrayLike, *, rings: int | None = None, progress: Progress = None
@@ -136,6 +129,11 @@ class Updates:
         values = np.atleast_2d(np.asarray(targets, dtype=np.float64))
         numbers = self._native.update(changed, values, -1 if rings is None else rings, callback(progress))
         return UpdateReport(**numbers)
+
+    @property
+    def targets(self) -> Array:
+        """A copy of all targets as they are."""
+        return self._native.targets()
 
     @property
     def control(self) -> Array:

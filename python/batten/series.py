@@ -13,6 +13,7 @@ from . import _native
 from .errors import Error
 from .mesh import Array, Mesh, as_mesh
 from .progress import Progress, callback
+from .rebuilt import Rebuilt
 from .reports import DenoiseReport, SharpenReport
 
 __all__ = [
@@ -27,7 +28,7 @@ __all__ = [
 ]
 
 
-class MeshSeries:
+class MeshSeries(Rebuilt):
     """Smooths values at the vertices of a mesh by powers of its limit matrix, after Lai and Cheng.
 
     Args:
@@ -45,23 +46,11 @@ class MeshSeries:
         boundary: str | None = None,
         progress: Progress = None,
     ) -> None:
-        self._mesh = as_mesh(mesh)
-        self._options = (matrix, kept, scheme, boundary)
-        self._make(progress)
-
-    def _make(self, progress: Progress = None) -> None:
-        matrix, kept, scheme, boundary = self._options
-        topology, self._rules = self._mesh._surface(scheme, boundary)
-        shape = self._mesh.points if matrix == "cotangent" else np.zeros((0, 3))
+        given = as_mesh(mesh)
+        topology, self._rules = given._surface(scheme, boundary)
+        shape = given.points if matrix == "cotangent" else np.zeros((0, 3))
         marks = np.zeros(0, dtype=bool) if kept is None else np.asarray(kept, dtype=bool)
         self._native = _native.MeshSeries(topology, self._rules, matrix, shape, marks, callback(progress))
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {"_mesh": self._mesh, "_options": self._options}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__dict__.update(state)
-        self._make()
 
     def smooth(self, values: npt.ArrayLike, *, m: int = 2, passes: int = 4, progress: Progress = None) -> Array:
         """Values, (n, k), after so many passes that keep the terms 0 to m."""

@@ -13,6 +13,7 @@ from . import _native
 from .errors import Error
 from .mesh import Array, Indices, Mesh, as_mesh, points_array
 from .progress import Progress, callback
+from .rebuilt import Rebuilt
 from .reports import DistanceSummary
 
 Floats = npt.NDArray[np.float32]
@@ -62,7 +63,7 @@ class Curvature:
     least_direction: Array
 
 
-class LimitSurface:
+class LimitSurface(Rebuilt):
     """Exact places on the limit surface of a control mesh.
 
     A place is a face and (u, v) in it: u runs from the face's first corner to its second, v to a quad's fourth or a
@@ -74,19 +75,8 @@ class LimitSurface:
         self, mesh: Any, *, scheme: str = "auto", boundary: str | None = None, progress: Progress = None
     ) -> None:
         self._mesh = as_mesh(mesh)
-        self._choice = (scheme, boundary)
-        self._make(progress)
-
-    def _make(self, progress: Progress = None) -> None:
-        self._topology, self._rules = self._mesh._surface(*self._choice)
-        self._native = _native.LimitSurface(self._topology, self._rules, self._mesh.points, callback(progress))
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {"_mesh": self._mesh, "_choice": self._choice}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__dict__.update(state)
-        self._make()
+        topology, rules = self._mesh._surface(scheme, boundary)
+        self._native = _native.LimitSurface(topology, rules, self._mesh.points, callback(progress))
 
     @property
     def mesh(self) -> Mesh:
@@ -176,26 +166,15 @@ class Nearest:
     uv: Array
 
 
-class NearestPoints:
+class NearestPoints(Rebuilt):
     """Finds the nearest places of a control mesh's limit surface: proved, not sampled."""
 
     def __init__(
         self, mesh: Any, *, scheme: str = "auto", boundary: str | None = None, progress: Progress = None
     ) -> None:
-        self._mesh = as_mesh(mesh)
-        self._choice = (scheme, boundary)
-        self._make(progress)
-
-    def _make(self, progress: Progress = None) -> None:
-        self._topology, self._rules = self._mesh._surface(*self._choice)
-        self._native = _native.NearestPoints(self._topology, self._rules, self._mesh.points, callback(progress))
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {"_mesh": self._mesh, "_choice": self._choice}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__dict__.update(state)
-        self._make()
+        control = as_mesh(mesh)
+        topology, rules = control._surface(scheme, boundary)
+        self._native = _native.NearestPoints(topology, rules, control.points, callback(progress))
 
     @property
     def tolerance(self) -> float:
@@ -236,7 +215,7 @@ def distance(
     return Distances(values, DistanceSummary(**_native.summarize(values)), closed, diagonal)
 
 
-class Tessellator:
+class Tessellator(Rebuilt):
     """The limit surface, or the refined control mesh, of the same connectivity again and again, into the same memory.
 
     Attributes:

@@ -130,6 +130,7 @@ class Updates {
     result["worst_miss"] = report.worst_miss;
     return result;
   }
+  py::array_t<double> targets() const { return array_of(Values(updates_.targets())); }
   py::array_t<double> control() const { return array_of(Values(updates_.control())); }
   py::array_t<Index> moved() const { return array_of(Buffer<Index>(updates_.moved().begin(), updates_.moved().end())); }
 
@@ -151,6 +152,7 @@ void bind_interpolation(py::module_& module) {
   py::class_<Updates>(module, "Updates")
       .def(py::init<const Interpolator&, const Doubles&, const py::object&>(), py::keep_alive<1, 2>())
       .def("update", &Updates::update)
+      .def("targets", &Updates::targets)
       .def("control", &Updates::control)
       .def("moved", &Updates::moved);
   module.def("interpolate_fairly", &fair);

@@ -111,6 +111,22 @@ def test_objects_pickle_and_copy(creature: batten.Mesh) -> None:
     query = creature.points[:5] + 0.1
     assert np.array_equal(pickle.loads(pickle.dumps(search)).query(query).points, search.query(query).points)
     assert np.array_equal(copy.deepcopy(series).smooth(creature.points), series.smooth(creature.points))
+    tessellator = batten.Tessellator(creature, 2, normals=True)
+    assert np.array_equal(pickle.loads(pickle.dumps(tessellator))(creature.points), tessellator(creature.points))
+    updates = solver.updates(creature.points)
+    updates.update(3, creature.points[3] + 0.1)
+    assert np.abs(copy.deepcopy(updates).control - updates.control).max() < 1e-6
+    energy = batten.SurfaceEnergy(creature, tension=2.0)
+    assert abs(copy.deepcopy(energy).matrix() - energy.matrix()).max() == 0.0
+    motion = batten.ElasticMotion(batten.ElasticSurface(creature), gravity=(0.0, 0.0, -1.0), held=[0])
+    motion.step(3)
+    later = copy.deepcopy(motion)
+    assert later.time == motion.time and np.array_equal(later.positions, motion.positions)
+    later.step()
+    motion.step()
+    assert np.array_equal(later.positions, motion.positions)
+    with pytest.raises(TypeError, match="refined motion"):
+        pickle.dumps(motion.refined())
 
 
 def test_errors_say_what_and_carry_a_code() -> None:
