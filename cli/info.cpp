@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "batten/error.h"
-#include "batten/expand/self_intersections.h"
+#include "batten/mesh/self_intersections.h"
 #include "batten/mesh/check.h"
 #include "batten/mesh/places.h"
 #include "batten/mesh/seams.h"

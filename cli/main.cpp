@@ -25,6 +25,7 @@ struct Verbs {
   TextureArguments texture;
   MorphArguments morph;
   FitArguments fit;
+  SegmentArguments segment;
   MedialArguments medial;
   SimulateArguments simulate;
   RepairArguments repair;
@@ -57,6 +58,7 @@ int run(int argc, char** argv) {
   add_morph(app, verbs.morph, status);
   add_simulate(app, verbs.simulate, status);
   add_fit(app, verbs.fit, status);
+  add_segment(app, verbs.segment, status);
   add_medial(app, verbs.medial, status);
   add_repair(app, verbs.repair, status);
   add_info(app, verbs.info, status);

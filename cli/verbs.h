@@ -4,6 +4,7 @@
 
 #include "cli/arguments.h"
 #include "cli/fit_arguments.h"
+#include "cli/segment_arguments.h"
 #include "cli/simulate_arguments.h"
 
 namespace batten::cli {
@@ -21,6 +22,7 @@ void add_texture(CLI::App& app, TextureArguments& arguments, int& status);
 void add_morph(CLI::App& app, MorphArguments& arguments, int& status);
 void add_simulate(CLI::App& app, SimulateArguments& arguments, int& status);
 void add_fit(CLI::App& app, FitArguments& arguments, int& status);
+void add_segment(CLI::App& app, SegmentArguments& arguments, int& status);
 void add_medial(CLI::App& app, MedialArguments& arguments, int& status);
 
 }  // namespace batten::cli

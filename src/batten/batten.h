@@ -29,7 +29,6 @@
 #include "batten/expand/morph_surface.h"
 #include "batten/expand/resample.h"
 #include "batten/expand/scheme_comparison.h"
-#include "batten/expand/self_intersections.h"
 #include "batten/expand/sharpen.h"
 #include "batten/expand/solid_noise.h"
 #include "batten/expand/strength.h"
@@ -73,6 +72,7 @@
 #include "batten/mesh/moved_mesh.h"
 #include "batten/mesh/primitives.h"
 #include "batten/mesh/repair.h"
+#include "batten/mesh/self_intersections.h"
 #include "batten/mesh/summary.h"
 #include "batten/mesh/topology.h"
 #include "batten/mesh/triangulate.h"
@@ -99,6 +99,13 @@
 #include "batten/tessellate/moving_surface.h"
 #include "batten/tessellate/surface_mesh.h"
 #include "batten/tessellate/tessellator.h"
+#include "batten/volume/inside_volume.h"
+#include "batten/volume/label_mask.h"
+#include "batten/volume/recursive_filter.h"
+#include "batten/volume/segment.h"
+#include "batten/volume/segment_measures.h"
+#include "batten/volume/slice.h"
+#include "batten/volume/volume.h"
 
 /// Subdivision surfaces through data.
 namespace batten {}

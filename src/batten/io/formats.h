@@ -22,9 +22,9 @@ Mesh read_gltf(const Source& source);
 /// The writers do not check the mesh: require_writable (write_check.h) must be called first.
 /// `libraries` are the material files that the OBJ file names.
 void write_obj(OutputFile& file, const Mesh& mesh, const std::vector<std::string>& libraries);
-void write_ply(OutputFile& file, const Mesh& mesh, Encoding encoding);
+void write_ply(OutputFile& file, const Mesh& mesh, Encoding encoding, const std::string& comment = {});
 void write_off(OutputFile& file, const Mesh& mesh);
-void write_stl(OutputFile& file, const Mesh& mesh, Encoding encoding);
+void write_stl(OutputFile& file, const Mesh& mesh, Encoding encoding, const std::string& comment = {});
 void write_xyz(OutputFile& file, const Mesh& mesh);
 /// WriteOptions::up, or where it is Auto the guess.
 inline UpAxis up_axis_to_write(const Mesh& mesh, UpAxis up) {

@@ -28,8 +28,9 @@ io::Encoding encoding_of(const WriteOptions& options) {
   return options.binary ? io::Encoding::Binary : io::Encoding::Text;
 }
 
-void write_obj(const std::string& path, io::OutputFile& file, const Mesh& mesh, const WriteOptions& /*options*/) {
+void write_obj(const std::string& path, io::OutputFile& file, const Mesh& mesh, const WriteOptions& options) {
   const io::ObjLibrary library(path, mesh);
+  if (!options.comment.empty()) file.write("# " + options.comment + "\n");
   io::write_obj(file, mesh, library.libraries());
   library.write();
 }
@@ -57,7 +58,7 @@ constexpr Format kFormats[] = {
     {"obj", io::read_obj, write_obj, UpAxis::Y},
     {"ply", io::read_ply,
      [](const std::string&, io::OutputFile& file, const Mesh& mesh, const WriteOptions& options) {
-       io::write_ply(file, mesh, encoding_of(options));
+       io::write_ply(file, mesh, encoding_of(options), options.comment);
      },
      UpAxis::Y},
     {"off", io::read_off,
@@ -65,7 +66,7 @@ constexpr Format kFormats[] = {
      UpAxis::Y},
     {"stl", io::read_stl,
      [](const std::string&, io::OutputFile& file, const Mesh& mesh, const WriteOptions& options) {
-       io::write_stl(file, mesh, encoding_of(options));
+       io::write_stl(file, mesh, encoding_of(options), options.comment);
      },
      UpAxis::Z},
     {"xyz", io::read_xyz,
@@ -159,6 +160,8 @@ void write_mesh(const std::string& path, const Mesh& mesh, const WriteOptions& o
   }
   const std::string name = path == "-" ? "standard output" : path;
   io::require_writable(name, mesh);
+  if (options.comment.find_first_of("\r\n") != std::string::npos)
+    throw Error(ErrorCode::BadArgument, name + ": a comment has no line end");
   write_atomically(path, [&](const std::string& target) {
     io::OutputFile file(target, name, progress);
     known.write(path, file, mesh, options);

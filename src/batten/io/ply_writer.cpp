@@ -121,10 +121,11 @@ void put_list(TextBuffer& out, bool is_short, const char* type, const char* name
 }
 
 void write_header(OutputFile& file, const Mesh& mesh, const std::vector<Column>& columns, const FaceColumns& faces,
-                  Encoding encoding) {
+                  Encoding encoding, const std::string& comment) {
   TextBuffer out;
   out.put("ply\nformat ").put(std::string_view(encoding == Encoding::Binary ? "binary_little_endian" : "ascii"));
   out.put(" 1.0\n");
+  if (!comment.empty()) out.put("comment ").put(std::string_view(comment)).put('\n');
   for (const std::string& name : faces.textures.names) out.put("comment TextureFile ").put(name).put('\n');
   out.put("element vertex ").put(mesh.vertex_count()).put('\n');
   for (const Column& column : columns) {
@@ -229,11 +230,11 @@ void write_elements(OutputFile& file, const Mesh& mesh, const std::vector<Column
 
 }  // namespace
 
-void write_ply(OutputFile& file, const Mesh& mesh, Encoding encoding) {
+void write_ply(OutputFile& file, const Mesh& mesh, Encoding encoding, const std::string& comment) {
   const std::vector<Column> columns = find_columns(file.name(), mesh);
   const FaceColumns faces = find_face_columns(file.name(), mesh);
   file.expect_rows(std::ptrdiff_t{mesh.vertex_count()} + mesh.face_count());
-  write_header(file, mesh, columns, faces, encoding);
+  write_header(file, mesh, columns, faces, encoding, comment);
   if (encoding == Encoding::Binary) {
     write_elements<BinaryRow, ByteBuffer>(file, mesh, columns, faces);
   } else {

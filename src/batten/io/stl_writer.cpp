@@ -24,9 +24,10 @@ void for_each_triangle(const Mesh& mesh, Index face, const Body& body) {
   }
 }
 
-void write_binary(OutputFile& file, const Mesh& mesh) {
+void write_binary(OutputFile& file, const Mesh& mesh, const std::string& comment) {
   // A header that begins with "solid" would look like text.
   std::string header = "binary STL, written by Batten";
+  if (!comment.empty()) header += ", " + comment;
   header.resize(80, ' ');
   const std::size_t triangles = mesh.face_vertices.size() - 2 * static_cast<std::size_t>(mesh.face_count());
   ByteBuffer count;
@@ -43,8 +44,8 @@ void write_binary(OutputFile& file, const Mesh& mesh) {
   });
 }
 
-void write_text(OutputFile& file, const Mesh& mesh) {
-  file.write("solid batten\n");
+void write_text(OutputFile& file, const Mesh& mesh, const std::string& comment) {
+  file.write("solid batten" + (comment.empty() ? "" : " " + comment) + "\n");
   write_rows<TextBuffer>(file, mesh.face_count(), [&](TextBuffer& out, std::ptrdiff_t face) {
     for_each_triangle(mesh, static_cast<Index>(face),
                       [&](const Eigen::Vector3d& normal, const Eigen::Matrix3d& points) {
@@ -58,14 +59,14 @@ void write_text(OutputFile& file, const Mesh& mesh) {
 
 }  // namespace
 
-void write_stl(OutputFile& file, const Mesh& mesh, Encoding encoding) {
+void write_stl(OutputFile& file, const Mesh& mesh, Encoding encoding, const std::string& comment) {
   if (mesh.face_count() == 0 && mesh.vertex_count() > 0) {
     throw Error(ErrorCode::BadShape,
                 file.name() + ": STL holds triangles only, and the mesh has no face; write xyz or ply");
   }
   file.expect_rows(mesh.face_count());
   if (encoding == Encoding::Text) {
-    write_text(file, mesh);
+    write_text(file, mesh, comment);
     return;
   }
   const bool fits = mesh.vertex_count() == 0 || mesh.points.cwiseAbs().maxCoeff() <= std::numeric_limits<float>::max();
@@ -73,7 +74,7 @@ void write_stl(OutputFile& file, const Mesh& mesh, Encoding encoding) {
     throw Error(ErrorCode::BadArgument,
                 file.name() + ": a coordinate is too large for the floats of binary STL; scale it");
   }
-  write_binary(file, mesh);
+  write_binary(file, mesh, comment);
 }
 
 }  // namespace batten::io

@@ -1,4 +1,4 @@
-#include "batten/expand/self_intersections.h"
+#include "batten/mesh/self_intersections.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

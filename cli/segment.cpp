@@ -1,0 +1,47 @@
+#include "cli/options.h"
+#include "cli/verbs.h"
+
+namespace batten::cli {
+
+void add_segment(CLI::App& app, SegmentArguments& arguments, int& status) {
+  CLI::App& verb = *app.add_subcommand("segment", "from a label of a volume to a small, smooth control mesh");
+  verb.add_option("VOLUME", arguments.common.input,
+                  "the image: .nii .nii.gz .nrrd .nhdr .mha .mhd, or a folder of DICOM slices")
+      ->required()
+      ->option_text("VOLUME");
+  verb.add_option("--mask", arguments.mask,
+                  "the volume of labels, on a grid of its own; the image itself, if not given")
+      ->option_text("VOLUME");
+  verb.add_option("--label", arguments.labels, "the label, or several as one: 71,72; all numbers but 0, if not given")
+      ->delimiter(',')
+      ->option_text("N,...");
+  add_common(verb, arguments.common);
+  add_output(verb, arguments.common);
+  verb.add_option("--vertices", arguments.vertices, "about so many control points; 386")->check(whole_number(8));
+  verb.add_option("--genus", arguments.genus, "how many handles the surface has; found if not given")
+      ->check(whole_number(0));
+  verb.add_option("--smoothing", arguments.smoothing,
+                  "how far the surface may stay away from the steps between voxels, in voxels (RMS); 0.15")
+      ->check(number_in(0.0, 10.0))
+      ->option_text("VOXELS");
+  add_choice(verb, "--scheme", arguments.common.scheme,
+             Names<SchemeKind>{{"catmull-clark", SchemeKind::CatmullClark}, {"loop", SchemeKind::Loop}},
+             "catmull-clark, if not given");
+  verb.add_option("--levels", arguments.levels, "write the limit surface refined so often, instead of the control mesh")
+      ->check(whole_number(0, 8));
+  add_choice(verb, "--space", arguments.space, Names<WorldSpace>{{"ras", WorldSpace::Ras}, {"lps", WorldSpace::Lps}},
+             "the world of the mesh that is written: x to the right and y to the front, or both the other way; ras");
+  add_output_file(verb, "--overlay", arguments.overlay, "draw slices of the image with the surface's outline",
+                  {".png"});
+  add_output_file(verb, "--inside", arguments.inside, "write 1 where a voxel's centre is inside, on the image's grid",
+                  {".nii", ".gz", ".nrrd", ".mha"});
+  verb.add_flag("--parts", arguments.parts, "with --inside: write the share of each voxel that is inside");
+  add_picture(verb, arguments.picture);
+  set_run(verb, arguments.common, status, [&] {
+    require_output(verb, {"--picture", "--report", "--overlay", "--inside"});
+    require_with(verb, {"--parts"}, {"--inside"});
+    return run_segment(arguments);
+  });
+}
+
+}  // namespace batten::cli

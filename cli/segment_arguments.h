@@ -1,0 +1,29 @@
+/// \file The options of the verb segment.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "batten/volume/volume.h"
+#include "cli/arguments.h"
+
+namespace batten::cli {
+
+struct SegmentArguments {
+  CommonArguments common;  ///< input: the volume
+  PictureArguments picture;
+  std::string mask;            ///< a volume of labels; empty: the input
+  std::vector<double> labels;  ///< empty: all but 0
+  std::optional<Index> vertices;
+  std::optional<Index> genus;
+  double smoothing = 0.15;  ///< in voxels
+  int levels = -1;          ///< -1: write the control mesh, or for GLB at most 3
+  WorldSpace space = WorldSpace::Ras;
+  std::string overlay;  ///< picture of slices
+  std::string inside;   ///< volume of the inside
+  bool parts = false;   ///< of each voxel, instead of centres
+};
+
+int run_segment(const SegmentArguments& arguments);
+
+}  // namespace batten::cli

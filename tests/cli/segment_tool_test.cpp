@@ -1,0 +1,76 @@
+/// The verb segment: from a volume of labels to a control mesh, a table, pictures and a report.
+#include <nlohmann/json.hpp>
+
+#include "batten/io/io.h"
+#include "batten/mesh/topology.h"
+#include "cli/tool.h"
+
+namespace batten::cli_tests {
+namespace {
+
+class SegmentTool : public Tool {
+ protected:
+  void SetUp() override {
+    Tool::SetUp();
+#ifndef BATTEN_WITH_VOLUMES
+    GTEST_SKIP() << "built without volumes (BATTEN_WITH_VOLUMES)";
+#endif
+    write("ball.nrrd", ball());
+  }
+
+  /// A ball of label 7 and radius 12 mm around (-10, -20, 30) in RAS, voxels of 2 by 2 by 3 mm, in LPS.
+  static std::string ball() {
+    std::string text =
+        "NRRD0004\ntype: uchar\ndimension: 3\nspace: left-posterior-superior\nsizes: 20 20 15\n"
+        "space directions: (2,0,0) (0,2,0) (0,0,3)\nspace origin: (-9,1,9)\nencoding: ascii\n\n";
+    for (int k = 0; k < 15; ++k) {
+      for (int j = 0; j < 20; ++j) {
+        for (int i = 0; i < 20; ++i) {
+          const double x = 2 * i - 19;
+          const double y = 2 * j - 19;
+          const double z = 3 * k - 21;
+          text += x * x + y * y + z * z < 144.0 ? "7 " : "0 ";
+        }
+      }
+    }
+    return text;
+  }
+};
+
+TEST_F(SegmentTool, FindsABallWhereItIs) {
+  const Outcome result = run(
+      "segment ball.nrrd --label 7 --vertices 100 -o a.obj --report r.json --inside in.nii.gz --parts --overlay s.png");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Mesh mesh = read_mesh(path("a.obj"));
+  const Eigen::RowVector3d middle = 0.5 * (mesh.points.colwise().minCoeff() + mesh.points.colwise().maxCoeff());
+  EXPECT_LT((middle - Eigen::RowVector3d(-10.0, -20.0, 30.0)).norm(), 1.5) << middle;
+  EXPECT_EQ(text_of(path("a.obj")).substr(0, 12), "# SPACE=RAS\n");
+  const auto report = nlohmann::json::parse(text_of(path("r.json")));
+  EXPECT_GT(report.at("dice"), 0.97);
+  EXPECT_EQ(report.at("genus"), 0);
+  EXPECT_EQ(report.at("self_intersections"), 0);
+  EXPECT_NEAR(report.at("volume").get<double>(), report.at("mask_volume").get<double>(), 250.0);
+  EXPECT_GT(fs::file_size(path("s.png")), 1000U);
+  EXPECT_GT(fs::file_size(path("in.nii.gz")), 100U);
+}
+
+TEST_F(SegmentTool, WritesLpsWhereAsked) {
+  ASSERT_EQ(run("segment ball.nrrd --vertices 100 -o a.ply").status, 0);
+  ASSERT_EQ(run("segment ball.nrrd --vertices 100 -o b.ply --space lps").status, 0);
+  Points turned = read_mesh(path("b.ply")).points;
+  turned.leftCols(2) *= -1.0;
+  EXPECT_EQ(turned, read_mesh(path("a.ply")).points);
+  EXPECT_NE(text_of(path("b.ply")).find("comment SPACE=LPS\n"), std::string::npos);
+}
+
+TEST_F(SegmentTool, SaysWhatIsWrong) {
+  EXPECT_EQ(run("segment ball.nrrd").status, 2) << "nothing to write";
+  const Outcome absent = run("segment ball.nrrd --label 71 -o a.obj");
+  EXPECT_EQ(absent.status, 1);
+  EXPECT_NE(absent.err.find("there are 7"), std::string::npos) << absent.err;
+  EXPECT_NE(run("segment nowhere.nii -o a.obj").err.find("nowhere.nii"), std::string::npos);
+  EXPECT_FALSE(fs::exists(path("a.obj")));
+}
+
+}  // namespace
+}  // namespace batten::cli_tests
