@@ -4,7 +4,8 @@
 namespace batten::cli {
 
 void add_segment(CLI::App& app, SegmentArguments& arguments, int& status) {
-  CLI::App& verb = *app.add_subcommand("segment", "from a label of a volume to a small, smooth control mesh");
+  CLI::App& verb = *app.add_subcommand(
+      "segment", "from a label of a volume, or points on a part of it, to a small, smooth control mesh");
   verb.add_option("VOLUME", arguments.common.input,
                   "the image: .nii .nii.gz .nrrd .nhdr .mha .mhd, or a folder of DICOM slices")
       ->required()
@@ -15,6 +16,10 @@ void add_segment(CLI::App& app, SegmentArguments& arguments, int& status) {
   verb.add_option("--label", arguments.labels, "the label, or several as one: 71,72; all numbers but 0, if not given")
       ->delimiter(',')
       ->option_text("N,...");
+  add_input_file(verb, "--points", arguments.points,
+                 "points on the border of the part, in the world of --space: the surface starts from them and is drawn "
+                 "to them and to the image's edges; .xyz or a mesh. Labels are then only compared with");
+  verb.add_flag("--edges", arguments.edges, "draw the surface of the labels to the image's edges, too");
   add_common(verb, arguments.common);
   add_output(verb, arguments.common);
   verb.add_option("--vertices", arguments.vertices, "about so many control points; 386")->check(whole_number(8));
@@ -40,6 +45,7 @@ void add_segment(CLI::App& app, SegmentArguments& arguments, int& status) {
   set_run(verb, arguments.common, status, [&] {
     require_output(verb, {"--picture", "--report", "--overlay", "--inside"});
     require_with(verb, {"--parts"}, {"--inside"});
+    require_with(verb, {"--edges"}, {"--mask"});
     return run_segment(arguments);
   });
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "batten/error.h"
 #include "batten/io/io.h"
@@ -12,6 +13,7 @@
 #include "batten/tessellate/surface_mesh.h"
 #include "batten/volume/inside_volume.h"
 #include "batten/volume/label_mask.h"
+#include "batten/volume/points_mask.h"
 #include "batten/volume/segment_measures.h"
 #include "batten/volume/slice.h"
 #include "batten/volume/volume_file.h"
@@ -26,6 +28,15 @@
 
 namespace batten::cli {
 namespace {
+
+/// What a run has found.
+struct Found {
+  Segmentation surface;
+  SurfaceMeasures measures;
+  std::optional<MaskAgreement> agreement;
+  EdgeStrength edges;
+  Points points;
+};
 
 Volume read_input_volume(const std::string& path) {
 #ifdef BATTEN_WITH_VOLUMES
@@ -110,55 +121,91 @@ nlohmann::ordered_json distances_json(const DistanceSummary& summary) {
   return {{"mean", summary.mean}, {"rms", summary.rms}, {"percentile_95", summary.most_of_95}, {"max", summary.max}};
 }
 
-nlohmann::ordered_json report_json(const SegmentArguments& arguments, const Segmentation& result,
-                                   const SurfaceMeasures& measures, const MaskAgreement& agreement,
-                                   const EdgeStrength& edges) {
-  return {{"mask", arguments.mask},
-          {"labels", arguments.labels},
-          {"space", arguments.space == WorldSpace::Ras ? "RAS" : "LPS"},
-          {"vertices", result.topology.vertex_count()},
-          {"faces", result.topology.face_count()},
-          {"scheme", scheme_json(result.scheme)},
-          {"genus", result.genus},
-          {"components", result.components},
-          {"dropped_parts", result.dropped_parts},
-          {"rounds", result.rounds},
-          {"cut_steps", result.cut_steps},
-          {"volume", measures.volume},
-          {"area", measures.area},
-          {"self_intersections", measures.self_intersections},
-          {"mask_volume", agreement.mask_volume},
-          {"dice", agreement.dice},
-          {"border_to_surface", distances_json(agreement.to_surface)},
-          {"surface_to_border", distances_json(agreement.to_border)},
-          {"edge_strength", {{"mean", edges.mean}, {"best_within_two_voxels", edges.best}, {"share", edges.share()}}},
-          {"peak_memory_bytes", peak_memory_bytes()}};
+nlohmann::ordered_json report_json(const SegmentArguments& arguments, const Found& found) {
+  const Segmentation& result = found.surface;
+  nlohmann::ordered_json json = {{"mask", arguments.mask},
+                                 {"labels", arguments.labels},
+                                 {"points", found.points.rows()},
+                                 {"space", arguments.space == WorldSpace::Ras ? "RAS" : "LPS"},
+                                 {"vertices", result.topology.vertex_count()},
+                                 {"faces", result.topology.face_count()},
+                                 {"scheme", scheme_json(result.scheme)},
+                                 {"genus", result.genus},
+                                 {"components", result.components},
+                                 {"dropped_parts", result.dropped_parts},
+                                 {"rounds", result.rounds},
+                                 {"cut_steps", result.cut_steps},
+                                 {"volume", found.measures.volume},
+                                 {"area", found.measures.area},
+                                 {"self_intersections", found.measures.self_intersections}};
+  if (found.agreement) {
+    json["mask_volume"] = found.agreement->mask_volume;
+    json["dice"] = found.agreement->dice;
+    json["border_to_surface"] = distances_json(found.agreement->to_surface);
+    json["surface_to_border"] = distances_json(found.agreement->to_border);
+  }
+  json["edge_strength"] = {
+      {"mean", found.edges.mean}, {"best_within_two_voxels", found.edges.best}, {"share", found.edges.share()}};
+  json["peak_memory_bytes"] = peak_memory_bytes();
+  return json;
 }
 
-Table table_of(const Segmentation& result, const SurfaceMeasures& measures, const MaskAgreement& agreement,
-               const EdgeStrength& edges, const VolumeGrid& grid) {
+Table table_of(const Found& found, const VolumeGrid& grid) {
+  const Segmentation& result = found.surface;
   Table table;
   table.add("image", volume_text(grid));
+  if (found.points.rows() > 0) table.add("points", count_of(found.points.rows(), "point", "points"));
   table.add("surface",
             mesh_text(result.topology) +
                 fmt::format("; genus {}, {}", result.genus, count_of(result.components, "component", "components")));
   if (result.dropped_parts > 0)
     table.add("", count_of(result.dropped_parts, "speck", "specks") + " of a few voxels left out");
-  table.add("volume", fmt::format("{:.1f} mm^3, area {:.1f} mm^2; the mask has {:.1f} mm^3", measures.volume,
-                                  measures.area, agreement.mask_volume));
-  table.add("agreement",
-            fmt::format("Dice {:.4f}; mean distance {:.3f} mm to the surface, {:.3f} mm to the mask's border",
-                        agreement.dice, agreement.to_surface.mean, agreement.to_border.mean));
-  table.add("edges", fmt::format("{:.1f} % of the best within two voxels", 100.0 * edges.share()));
-  if (measures.self_intersections > 0)
-    table.add("", count_of(measures.self_intersections, "pair", "pairs") + " of triangles meet");
+  const std::string of_mask =
+      found.agreement ? fmt::format("; the mask has {:.1f} mm^3", found.agreement->mask_volume) : "";
+  table.add("volume",
+            fmt::format("{:.1f} mm^3, area {:.1f} mm^2{}", found.measures.volume, found.measures.area, of_mask));
+  if (found.agreement)
+    table.add("agreement",
+              fmt::format("Dice {:.4f}; mean distance {:.3f} mm to the surface, {:.3f} mm to the mask's border",
+                          found.agreement->dice, found.agreement->to_surface.mean, found.agreement->to_border.mean));
+  table.add("edges", fmt::format("{:.1f} % of the best within two voxels", 100.0 * found.edges.share()));
+  if (found.measures.self_intersections > 0)
+    table.add("", count_of(found.measures.self_intersections, "pair", "pairs") + " of triangles meet");
   return table;
+}
+
+/// From points or labels to the surface, and its measures.
+Found segmented(const SegmentArguments& arguments, const Volume& image, const Volume& labels, Job& job) {
+  constexpr double kAlpha = 2.0;  // of the smoothing before edges are measured, 1/mm
+  SegmentOptions options;
+  options.scheme.kind = arguments.common.scheme.value_or(SchemeKind::CatmullClark);
+  options.vertices = arguments.vertices.value_or(options.vertices);
+  options.genus = arguments.genus;
+  options.smoothing = arguments.smoothing;
+  const bool with_points = !arguments.points.empty();
+  Points points(0, 3);
+  if (with_points)
+    points = in_space(read_file(arguments.points, "", arguments.common.quiet, &job.notes).points, arguments.space);
+  std::optional<Volume> mask;
+  if (!with_points || !arguments.mask.empty())
+    mask = label_mask(arguments.mask.empty() ? image : labels, arguments.labels);
+  ProgressBar bar("segmenting", arguments.common.quiet);
+  const bool drawn = with_points || arguments.edges;
+  Segmentation surface = segment_mask(with_points ? points_mask(points) : *mask, options,
+                                      progress_within(bar.callback(), 0.0, drawn ? 0.5 : 1.0));
+  if (drawn) surface = segment_image(surface, image, points, {}, progress_within(bar.callback(), 0.5, 1.0));
+  job.stages.finish("segment");
+  SurfaceMeasures measures = measure_surface(surface.topology, surface.scheme, surface.mesh);
+  std::optional<MaskAgreement> agreement;
+  if (mask) agreement = compare_with_mask(measures.fine, *mask);
+  const EdgeStrength edges = edge_strength(measures.fine, image, kAlpha);
+  job.stages.finish("measure");
+  return {std::move(surface), std::move(measures), std::move(agreement), edges, std::move(points)};
 }
 
 }  // namespace
 
 int run_segment(const SegmentArguments& arguments) {
-  constexpr double kAlpha = 2.0;  // of the smoothing before edges are measured, 1/mm
   Volume image;
   Volume labels;
   Job job(
@@ -168,35 +215,24 @@ int run_segment(const SegmentArguments& arguments) {
         if (!arguments.mask.empty()) labels = read_input_volume(arguments.mask);
       },
       UpAxis::Z);
-  SegmentOptions options;
-  options.scheme.kind = arguments.common.scheme.value_or(SchemeKind::CatmullClark);
-  options.vertices = arguments.vertices.value_or(options.vertices);
-  options.genus = arguments.genus;
-  options.smoothing = arguments.smoothing;
-  const Volume mask = label_mask(arguments.mask.empty() ? image : labels, arguments.labels);
-  ProgressBar bar("segmenting", arguments.common.quiet);
-  const Segmentation result = segment_mask(mask, options, bar.callback());
-  job.stages.finish("segment");
-  const SurfaceMeasures measures = measure_surface(result.topology, result.scheme, result.mesh);
-  const MaskAgreement agreement = compare_with_mask(measures.fine, mask);
-  const EdgeStrength edges = edge_strength(measures.fine, image, kAlpha);
-  job.stages.finish("measure");
-  const std::string written = write_in_space(arguments, result, job);
-  write_inside(arguments, measures.fine, image.grid);
-  draw_overlay(arguments, measures.fine, image);
+  const Found found = segmented(arguments, image, labels, job);
+  const std::string written = write_in_space(arguments, found.surface, job);
+  write_inside(arguments, found.measures.fine, image.grid);
+  draw_overlay(arguments, found.measures.fine, image);
   if (!arguments.picture.path.empty()) {
     Subject subject;
-    subject.control = &result.mesh;
-    subject.topology = result.topology;
-    subject.scheme = result.scheme;
+    subject.control = &found.surface.mesh;
+    subject.topology = found.surface.topology;
+    subject.scheme = found.surface.scheme;
     subject.draw_control = true;
+    subject.markers = found.points;
     draw(subject, arguments.picture, job);
     job.stages.finish("picture");
   }
-  Table table = table_of(result, measures, agreement, edges, image.grid);
+  Table table = table_of(found, image.grid);
   if (!written.empty()) table.add("written", written);
   job.print(table);
-  job.report(report_json(arguments, result, measures, agreement, edges));
+  job.report(report_json(arguments, found));
   return 0;
 }
 
