@@ -14,6 +14,8 @@ struct SegmentArguments {
   PictureArguments picture;
   std::string mask;            ///< a volume of labels; empty: the input
   std::vector<double> labels;  ///< empty: all but 0
+  std::string points;          ///< on the surface; empty: none
+  bool edges = false;          ///< draw the surface of the labels to the image's edges
   std::optional<Index> vertices;
   std::optional<Index> genus;
   double smoothing = 0.15;  ///< in voxels

@@ -1,203 +1,53 @@
-/// The verb segment: from a label of a volume to a subdivision surface.
-#include "batten/volume/segment.h"
-
-#include <fmt/format.h>
-
-#include <algorithm>
-
-#include "batten/error.h"
-#include "batten/io/io.h"
-#include "batten/io/losses.h"
-#include "batten/quantile.h"
-#include "batten/tessellate/surface_mesh.h"
-#include "batten/volume/inside_volume.h"
-#include "batten/volume/label_mask.h"
-#include "batten/volume/segment_measures.h"
-#include "batten/volume/slice.h"
-#include "batten/volume/volume_file.h"
-#include "cli/input_output.h"
-#include "cli/job.h"
-#include "cli/picture.h"
-#include "cli/segment_arguments.h"
-#ifdef BATTEN_WITH_RENDER
-#include "batten/render/gray_picture.h"
-#include "batten/render/panels.h"
-#endif
+#include "cli/options.h"
+#include "cli/verbs.h"
 
 namespace batten::cli {
-namespace {
 
-Volume read_input_volume(const std::string& path) {
-#ifdef BATTEN_WITH_VOLUMES
-  return read_volume(path);
-#else
-  throw Error(ErrorCode::NotAvailable, path + ": this build reads no volumes; configure with BATTEN_WITH_VOLUMES=ON");
-#endif
-}
-
-void write_inside(const SegmentArguments& arguments, const Mesh& fine, const VolumeGrid& grid) {
-  if (arguments.inside.empty()) return;
-#ifdef BATTEN_WITH_VOLUMES
-  const Volume inside = inside_volume(fine, grid, arguments.parts ? VoxelRule::Part : VoxelRule::Centre);
-  write_volume(arguments.inside, inside, arguments.parts ? VoxelType::Float : VoxelType::Byte);
-#else
-  (void)fine;
-  (void)grid;
-#endif
-}
-
-/// Twelve slices, four in each direction.
-void draw_overlay(const SegmentArguments& arguments, const Mesh& fine, const Volume& image) {
-  if (arguments.overlay.empty()) return;
-#ifdef BATTEN_WITH_RENDER
-  constexpr int kColumns = 4;
-  constexpr double kPanelWidth = 400.0;
-  constexpr double kText = 20.0;
-  const std::vector<VolumeSlice> slices = slices_through(image, fine, kColumns);
-  std::vector<double> numbers;
-  double widest = 0.0;
-  for (const VolumeSlice& slice : slices) {
-    numbers.insert(numbers.end(), slice.numbers.data(), slice.numbers.data() + slice.numbers.size());
-    widest = std::max({widest, slice.pixel_width * static_cast<double>(slice.numbers.cols()),
-                       slice.pixel_height * static_cast<double>(slice.numbers.rows())});
-  }
-  GrayStyle style;
-  style.black = quantile(numbers, 0.01);
-  style.white = quantile(numbers, 0.99);
-  style.scale = kPanelWidth / widest;
-  std::vector<Panel> panels;
-  for (const VolumeSlice& slice : slices) {
-    const GrayImage gray{slice.numbers, slice.pixel_width, slice.pixel_height, slice.lines};
-    panels.push_back({draw_gray(gray, style), slice.caption});
-  }
-  PictureStyle background;
-  background.text_size = kText;
-  write_png(arguments.overlay, in_rows(panels, kColumns, background));
-#else
-  (void)fine;
-  (void)image;
-  throw Error(ErrorCode::NotAvailable, "this build draws no pictures; configure with BATTEN_WITH_RENDER=ON");
-#endif
-}
-
-/// The control mesh, or its surface, in the space that was asked for, which the file says.
-std::string write_in_space(const SegmentArguments& arguments, const Segmentation& result, Job& job) {
-  const CommonArguments& common = arguments.common;
-  if (common.output.empty()) return {};
-  const bool fine = arguments.levels >= 0 || file_format(common.output, common.output_format) == "glb";
-  const int levels = arguments.levels >= 0 ? arguments.levels : std::min(3, picture_levels(result.topology));
-  Mesh mesh = fine ? surface_mesh(result.topology, result.scheme, result.mesh, levels) : result.mesh;
-  mesh.points = in_space(std::move(mesh.points), arguments.space);
-  for (Attribute& attribute : mesh.attributes) {
-    if (attribute.name == "normal" && arguments.space == WorldSpace::Lps) attribute.values.leftCols(2) *= -1.0;
-  }
-  WriteOptions options{common.output_format, !common.ascii, UpAxis::Z};
-  options.comment = arguments.space == WorldSpace::Ras ? "SPACE=RAS" : "SPACE=LPS";
-  write_mesh(common.output, mesh, options);
-  job.lost = find_losses(common.output, mesh, options);
-  say_losses(common.output, job.lost, common.quiet);
-  job.stages.finish("write");
-  return fine ? fmt::format("the limit surface refined to {}, {}", count_of(levels, "level", "levels"), size_text(mesh))
-              : "";
-}
-
-std::string volume_text(const VolumeGrid& grid) {
-  return fmt::format("{} x {} x {} voxels of {:.3g} x {:.3g} x {:.3g} mm", grid.size[0], grid.size[1], grid.size[2],
-                     grid.spacing(0), grid.spacing(1), grid.spacing(2));
-}
-
-nlohmann::ordered_json distances_json(const DistanceSummary& summary) {
-  return {{"mean", summary.mean}, {"rms", summary.rms}, {"percentile_95", summary.most_of_95}, {"max", summary.max}};
-}
-
-nlohmann::ordered_json report_json(const SegmentArguments& arguments, const Segmentation& result,
-                                   const SurfaceMeasures& measures, const MaskAgreement& agreement,
-                                   const EdgeStrength& edges) {
-  return {{"mask", arguments.mask},
-          {"labels", arguments.labels},
-          {"space", arguments.space == WorldSpace::Ras ? "RAS" : "LPS"},
-          {"vertices", result.topology.vertex_count()},
-          {"faces", result.topology.face_count()},
-          {"scheme", scheme_json(result.scheme)},
-          {"genus", result.genus},
-          {"components", result.components},
-          {"dropped_parts", result.dropped_parts},
-          {"rounds", result.rounds},
-          {"cut_steps", result.cut_steps},
-          {"volume", measures.volume},
-          {"area", measures.area},
-          {"self_intersections", measures.self_intersections},
-          {"mask_volume", agreement.mask_volume},
-          {"dice", agreement.dice},
-          {"border_to_surface", distances_json(agreement.to_surface)},
-          {"surface_to_border", distances_json(agreement.to_border)},
-          {"edge_strength", {{"mean", edges.mean}, {"best_within_two_voxels", edges.best}, {"share", edges.share()}}},
-          {"peak_memory_bytes", peak_memory_bytes()}};
-}
-
-Table table_of(const Segmentation& result, const SurfaceMeasures& measures, const MaskAgreement& agreement,
-               const EdgeStrength& edges, const VolumeGrid& grid) {
-  Table table;
-  table.add("image", volume_text(grid));
-  table.add("surface",
-            mesh_text(result.topology) +
-                fmt::format("; genus {}, {}", result.genus, count_of(result.components, "component", "components")));
-  if (result.dropped_parts > 0)
-    table.add("", count_of(result.dropped_parts, "speck", "specks") + " of a few voxels left out");
-  table.add("volume", fmt::format("{:.1f} mm^3, area {:.1f} mm^2; the mask has {:.1f} mm^3", measures.volume,
-                                  measures.area, agreement.mask_volume));
-  table.add("agreement",
-            fmt::format("Dice {:.4f}; mean distance {:.3f} mm to the surface, {:.3f} mm to the mask's border",
-                        agreement.dice, agreement.to_surface.mean, agreement.to_border.mean));
-  table.add("edges", fmt::format("{:.1f} % of the best within two voxels", 100.0 * edges.share()));
-  if (measures.self_intersections > 0)
-    table.add("", count_of(measures.self_intersections, "pair", "pairs") + " of triangles meet");
-  return table;
-}
-
-}  // namespace
-
-int run_segment(const SegmentArguments& arguments) {
-  constexpr double kAlpha = 2.0;  // of the smoothing before edges are measured, 1/mm
-  Volume image;
-  Volume labels;
-  Job job(
-      "segment", arguments.common,
-      [&] {
-        image = read_input_volume(arguments.common.input);
-        if (!arguments.mask.empty()) labels = read_input_volume(arguments.mask);
-      },
-      UpAxis::Z);
-  SegmentOptions options;
-  options.scheme.kind = arguments.common.scheme.value_or(SchemeKind::CatmullClark);
-  options.vertices = arguments.vertices.value_or(options.vertices);
-  options.genus = arguments.genus;
-  options.smoothing = arguments.smoothing;
-  const Volume mask = label_mask(arguments.mask.empty() ? image : labels, arguments.labels);
-  ProgressBar bar("segmenting", arguments.common.quiet);
-  const Segmentation result = segment_mask(mask, options, bar.callback());
-  job.stages.finish("segment");
-  const SurfaceMeasures measures = measure_surface(result.topology, result.scheme, result.mesh);
-  const MaskAgreement agreement = compare_with_mask(measures.fine, mask);
-  const EdgeStrength edges = edge_strength(measures.fine, image, kAlpha);
-  job.stages.finish("measure");
-  const std::string written = write_in_space(arguments, result, job);
-  write_inside(arguments, measures.fine, image.grid);
-  draw_overlay(arguments, measures.fine, image);
-  if (!arguments.picture.path.empty()) {
-    Subject subject;
-    subject.control = &result.mesh;
-    subject.topology = result.topology;
-    subject.scheme = result.scheme;
-    subject.draw_control = true;
-    draw(subject, arguments.picture, job);
-    job.stages.finish("picture");
-  }
-  Table table = table_of(result, measures, agreement, edges, image.grid);
-  if (!written.empty()) table.add("written", written);
-  job.print(table);
-  job.report(report_json(arguments, result, measures, agreement, edges));
-  return 0;
+void add_segment(CLI::App& app, SegmentArguments& arguments, int& status) {
+  CLI::App& verb = *app.add_subcommand(
+      "segment", "from a label of a volume, or points on a part of it, to a small, smooth control mesh");
+  verb.add_option("VOLUME", arguments.common.input,
+                  "the image: .nii .nii.gz .nrrd .nhdr .mha .mhd, or a folder of DICOM slices")
+      ->required()
+      ->option_text("VOLUME");
+  verb.add_option("--mask", arguments.mask,
+                  "the volume of labels, on a grid of its own; the image itself, if not given")
+      ->option_text("VOLUME");
+  verb.add_option("--label", arguments.labels, "the label, or several as one: 71,72; all numbers but 0, if not given")
+      ->delimiter(',')
+      ->option_text("N,...");
+  add_input_file(verb, "--points", arguments.points,
+                 "points on the border of the part, in the world of --space: the surface starts from them and is drawn "
+                 "to them and to the image's edges; .xyz or a mesh. Labels are then only compared with");
+  verb.add_flag("--edges", arguments.edges, "draw the surface of the labels to the image's edges, too");
+  add_common(verb, arguments.common);
+  add_output(verb, arguments.common);
+  verb.add_option("--vertices", arguments.vertices, "about so many control points; 386")->check(whole_number(8));
+  verb.add_option("--genus", arguments.genus, "how many handles the surface has; found if not given")
+      ->check(whole_number(0));
+  verb.add_option("--smoothing", arguments.smoothing,
+                  "how far the surface may stay away from the steps between voxels, in voxels (RMS); 0.15")
+      ->check(number_in(0.0, 10.0))
+      ->option_text("VOXELS");
+  add_choice(verb, "--scheme", arguments.common.scheme,
+             Names<SchemeKind>{{"catmull-clark", SchemeKind::CatmullClark}, {"loop", SchemeKind::Loop}},
+             "catmull-clark, if not given");
+  verb.add_option("--levels", arguments.levels, "write the limit surface refined so often, instead of the control mesh")
+      ->check(whole_number(0, 8));
+  add_choice(verb, "--space", arguments.space, Names<WorldSpace>{{"ras", WorldSpace::Ras}, {"lps", WorldSpace::Lps}},
+             "the world of the mesh that is written: x to the right and y to the front, or both the other way; ras");
+  add_output_file(verb, "--overlay", arguments.overlay, "draw slices of the image with the surface's outline",
+                  {".png"});
+  add_output_file(verb, "--inside", arguments.inside, "write 1 where a voxel's centre is inside, on the image's grid",
+                  {".nii", ".gz", ".nrrd", ".mha"});
+  verb.add_flag("--parts", arguments.parts, "with --inside: write the share of each voxel that is inside");
+  add_picture(verb, arguments.picture);
+  set_run(verb, arguments.common, status, [&] {
+    require_output(verb, {"--picture", "--report", "--overlay", "--inside"});
+    require_with(verb, {"--parts"}, {"--inside"});
+    require_with(verb, {"--edges"}, {"--mask"});
+    return run_segment(arguments);
+  });
 }
 
 }  // namespace batten::cli

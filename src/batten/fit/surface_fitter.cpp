@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -221,19 +222,28 @@ void pull_to_data(const FitState& parts, const std::vector<Jet>& jets, double we
 SurfaceFitter::SurfaceFitter(const Topology& topology, const Scheme& scheme, ConstValuesRef control, PointCloud cloud,
                              const Progress& progress)
     : parts_(std::make_unique<Parts>()) {
-  require_finite(cloud.points, "points");
   require_control_points(topology, control);
-  if (cloud.points.rows() == 0) throw Error(ErrorCode::BadArgument, "there are no points to fit");
+  set_cloud(std::move(cloud));
+  parts_->scheme = scheme;
+  parts_->control = control;
+  parts_->level = std::make_unique<FitLevel>(topology, scheme, control, progress);
+}
+
+void SurfaceFitter::set_cloud(PointCloud cloud) {
+  require_finite(cloud.points, "points");
+  require_finite(cloud.normals, "normals");
+  const Eigen::Index count = cloud.points.rows();
+  if (count == 0) throw Error(ErrorCode::BadArgument, "there are no points to fit");
+  if (cloud.normals.rows() != 0 && cloud.normals.rows() != count)
+    throw Error(ErrorCode::BadShape, "there are " + std::to_string(cloud.normals.rows()) + " normals for " +
+                                         std::to_string(count) + " points");
   Parts& parts = *parts_;
-  parts.scheme = scheme;
   parts.tree = PointTree(cloud.points);
   parts.cloud = std::move(cloud);
-  parts.control = control;
-  parts.weights = Scalars::Ones(parts.cloud.points.rows());
-  parts.weight_sum = static_cast<double>(parts.cloud.points.rows());
-  parts.level = std::make_unique<FitLevel>(topology, scheme, control, progress);
-  parts.attached.resize(static_cast<std::size_t>(parts.cloud.points.rows()));
-  parts.distances = Scalars::Zero(parts.cloud.points.rows());
+  parts.weights = Scalars::Ones(count);
+  parts.weight_sum = static_cast<double>(count);
+  parts.attached.resize(static_cast<std::size_t>(count));
+  parts.distances = Scalars::Zero(count);
   parts.spacing = median_spacing(parts.tree);
 }
 

@@ -49,6 +49,10 @@ class SurfaceFitter {
   /// Of the last attach(): from each point to the surface.
   const Scalars& distances() const;
 
+  /// Other data for the same surface, with normals; all weights are 1 again. A step needs attach() first. Throws
+  /// Error(BadArgument, BadShape, NotFinite).
+  void set_cloud(PointCloud cloud);
+
   /// The median distance between neighbouring points of the data.
   double spacing() const;
 

@@ -39,4 +39,21 @@ struct Segmentation {
 /// Thousands of voxels take a second. Throws Error: what first_mesh() throws; BadArgument.
 Segmentation segment_mask(const Volume& mask, const SegmentOptions& options = {}, const Progress& progress = {});
 
+/// Options of segment_image().
+struct ImageFitOptions {
+  double smoothing = 1.0;  ///< the width of the image's smoothing in the end, voxels; three times as much at first
+  double reach = 3.0;      ///< how far edges are searched along the normal in the end, voxels; twice as far at first
+  double point_weight = 30.0;  ///< of all points together beside all edges together
+  double fairness = 0.1;       ///< in the end (FitStep)
+  int rounds = 24;
+};
+
+/// Draws a surface to the edges of an image and to points. In each round every place of a grid on the surface looks
+/// along its normal for the strongest edge (volume/edge_search.h); edges and points draw the surface as
+/// fit/surface_fitter.h does, and steps are taken back as segment_mask() does; the smoothing of the image, the reach
+/// and the fairness fall from round to round. The points stay more exact the larger their weight. points: N-by-3, in
+/// the world, or without rows. Throws Error: BadArgument, BadShape, NotFinite, Cancelled.
+Segmentation segment_image(const Segmentation& start, const Volume& image, const Points& points,
+                           const ImageFitOptions& options = {}, const Progress& progress = {});
+
 }  // namespace batten

@@ -20,7 +20,7 @@ namespace batten {
 SurfaceMeasures measure_surface(const Topology& topology, const Scheme& scheme, const Mesh& control) {
   constexpr Index kFaces = 60000;
   int levels = 1;
-  for (Index faces = 4 * topology.face_count(); faces < kFaces; faces *= 4) ++levels;
+  for (std::int64_t faces = 4 * std::int64_t{topology.face_count()}; faces < kFaces; faces *= 4) ++levels;
   SurfaceMeasures measures;
   measures.fine = triangulated(surface_mesh(topology, scheme, control, levels));
   const Topology fine(measures.fine);
