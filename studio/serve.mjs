@@ -27,7 +27,7 @@ const compress = promisify(brotliCompress);
 const packed = new Map();
 
 async function pack(path, bytes) {
-  if (!packed.has(path)) packed.set(path, await compress(bytes, { params: { [constants.BROTLI_PARAM_QUALITY]: 9 } }));
+  if (!packed.has(path)) packed.set(path, await compress(bytes, { params: { [constants.BROTLI_PARAM_QUALITY]: 5 } }));
   return packed.get(path);
 }
 

@@ -110,6 +110,7 @@ function main(): void {
     else if (kept?.work && !app.work) app.restore(kept);
     keepIn(app.store, () => undefined);
     document.documentElement.dataset['ready'] = String(Math.round(performance.now()));
+    void app.engine.run(() => Promise.resolve()); // loads it before it is needed
   });
   if ('serviceWorker' in navigator && import.meta.env.PROD) void navigator.serviceWorker.register('./offline.js').catch(() => undefined);
   // For tests and the bench page.

@@ -19,12 +19,32 @@ function report(done: number): boolean {
   return !stop || Atomics.load(stop, 0) === 0;
 }
 
+/** The memory of all typed arrays in a result. */
+function buffersOf(result: unknown): ArrayBuffer[] {
+  if (ArrayBuffer.isView(result)) return result.buffer instanceof ArrayBuffer ? [result.buffer] : [];
+  return typeof result === 'object' && result !== null ? Object.values(result).flatMap(buffersOf) : [];
+}
+
+/** The engine, whose results are handed over instead of copied: they are nobody else's. */
+function handingOver(engine: Engine): Engine {
+  return new Proxy(engine, {
+    get(target, name) {
+      const member: unknown = Reflect.get(target, name);
+      if (typeof member !== 'function') return member;
+      return (...words: unknown[]) => {
+        const result: unknown = Reflect.apply(member, target, words);
+        return typeof result === 'object' && result !== null ? Comlink.transfer(result, [...new Set(buffersOf(result))]) : result;
+      };
+    },
+  });
+}
+
 const host = {
   async start(shared: Int32Array | null, progress: (done: number) => void): Promise<Engine & Comlink.ProxyMarked> {
     stop = shared;
     tell = progress;
     const module = (await createEngine({ locateFile: () => wasmUrl })) as EngineModule;
-    return Comlink.proxy(new Engine(module, report));
+    return Comlink.proxy(handingOver(new Engine(module, report)));
   },
 };
 export type Host = typeof host;

@@ -1,9 +1,10 @@
 // node tests/browser/bench.mjs PAGE-FOLDER BATTEN: the figures of docs/decisions/017-studio.md, by one run in this
 // machine's Chromium. Medians; milliseconds of the engine unless said otherwise.
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, statSync } from 'node:fs';
+import { mkdtempSync, readdirSync, readFileSync, statSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
+import { brotliCompressSync, constants } from 'node:zlib';
 import { idle, openStudio, status } from './browser.mjs';
 
 const [folder, batten] = process.argv.slice(2);
@@ -17,6 +18,11 @@ function refined(model, levels) {
   execFileSync(batten, ['subdivide', `${models}${model}.obj`, '--levels', String(levels), '-o', path, '--quiet']);
   return path;
 }
+/** Of what the Worker fetches, which the page's own list lacks. */
+function packedSize() {
+  const files = readdirSync(join(folder, 'assets')).filter((name) => name.endsWith('.wasm') || name.startsWith('worker'));
+  return files.reduce((sum, name) => sum + brotliCompressSync(readFileSync(join(folder, 'assets', name)), { params: { [constants.BROTLI_PARAM_QUALITY]: 5 } }).length, 0);
+}
 function native(path) {
   const report = join(scratch, 'report.json');
   const seconds = Array.from({ length: 5 }, () => {
@@ -29,8 +35,6 @@ function native(path) {
 const studio = await openStudio(folder);
 const { page } = studio;
 const readies = [];
-const sizes = [];
-page.on('response', async (answer) => sizes.push((await answer.request().sizes().catch(() => ({ responseBodySize: 0 }))).responseBodySize));
 for (let i = 0; i < 5; ++i) {
   await page.goto(studio.url);
   await studio.ready();
@@ -38,11 +42,9 @@ for (let i = 0; i < 5; ++i) {
 }
 row('page ready, ms (Chromium with a warm disk cache)', median(readies));
 const fresh = await openStudio(folder);
-const wire = [];
-fresh.page.on('response', async (answer) => wire.push((await answer.request().sizes().catch(() => ({ responseBodySize: 0 }))).responseBodySize));
 row('page ready, ms (the first load)', await fresh.page.evaluate(() => document.documentElement.dataset.ready));
-const fetched = await fresh.page.evaluate(() => performance.getEntriesByType('resource').reduce((sum, one) => sum + one.encodedBodySize, 0));
-row('bytes over the wire before the first mesh (brotli)', fetched);
+const fetched = () => fresh.page.evaluate(() => performance.getEntriesByType('resource').reduce((sum, one) => sum + one.encodedBodySize, 0));
+row('bytes over the wire, without and with the engine (brotli)', `${await fetched()}, ${(await fetched()) + packedSize()}`);
 await fresh.close();
 
 async function open(path) {
@@ -114,5 +116,6 @@ const begin = performance.now();
 await page.evaluate(() => globalThis.studio.app.set('interpolate', { interpolate: true }));
 await idle(page);
 row(`OBJ of ${(statSync(large).size / 1e6).toFixed(0)} MB: opened and shown, interpolated and shown, s`, `${(opened / 1e3).toFixed(1)}, ${((performance.now() - begin) / 1e3).toFixed(1)}`);
+row('  its memory in the engine, MB', Math.round((await page.evaluate(() => globalThis.studio.app.engine.run((engine) => engine.memory()))) / 1e6));
 row('  ', await status(page));
 await studio.close();
