@@ -9,7 +9,6 @@
 #include "batten/error.h"
 #include "batten/fit/mesh_samples.h"
 #include "batten/io/io.h"
-#include "batten/mesh/vertex_normals.h"
 #include "batten/refine/refinement.h"
 #include "cli/fit_arguments.h"
 #include "cli/job.h"
@@ -18,27 +17,6 @@
 
 namespace batten::cli {
 namespace {
-
-/// Points with the normals that the file states.
-PointCloud stated_cloud(Mesh mesh) {
-  PointCloud cloud;
-  if (states_normals(mesh)) {
-    cloud.normals = stated_normals(mesh);
-    cloud.normals.rowwise().normalize();
-  }
-  cloud.points = std::move(mesh.points);
-  return cloud;
-}
-
-/// Points spread over the faces of a mesh, so many that a surface of `vertices` control points follows it.
-PointCloud sampled_cloud(const Mesh& mesh, Index vertices) {
-  constexpr Index kLeast = 10000;
-  constexpr Index kMost = 200000;
-  constexpr Index kOfVertex = 12;
-  const Index count = std::clamp(vertices, Index{1}, kMost / kOfVertex) * kOfVertex;
-  MeshSamples samples = sample_mesh(mesh, std::max(kLeast, count));
-  return {std::move(samples.points), std::move(samples.normals)};
-}
 
 FitOptions options_of(const FitArguments& arguments, const Mesh& points, Job& job) {
   FitOptions options;
@@ -172,8 +150,8 @@ int run_fit(const FitArguments& arguments) {
   Job job("fit", common);
   const FitOptions options = options_of(arguments, job.mesh, job);
   const Index vertices = std::max(options.vertices.value_or(0), options.initial ? options.initial->vertex_count() : 0);
+  const PointCloud cloud = cloud_of_mesh(job.mesh, vertices);
   Mesh points;
-  PointCloud cloud = job.mesh.face_count() > 0 ? sampled_cloud(job.mesh, vertices) : stated_cloud(std::move(job.mesh));
   points.points = cloud.points;
   job.stages.finish("sample");
   ProgressBar bar("fitting", common.quiet);
