@@ -98,6 +98,7 @@ nlohmann::ordered_json report_json(const FitResult& result) {
           {"outliers", report.outliers},
           {"points_to_surface", summary_json(report.to_surface, report.diameter)},
           {"surface_to_points", summary_json(report.to_points, report.diameter)},
+          {"unsound_faces", report.unsound},
           {"end", end_word(report.end)},
           {"rounds", rounds_json(report)},
           {"peak_memory_bytes", peak_memory_bytes()}};
@@ -114,6 +115,8 @@ void print_table(const FitResult& result, const std::string& written, const Job&
   table.add("", distances_text(report.to_points, report.diameter) + " from the surface to the points");
   table.add("", fmt::format("% are of the enclosing sphere's diameter, {:.4g}; points are {:.4g} apart",
                             report.diameter, report.spacing));
+  if (report.unsound > 0)
+    table.add("unsound", count_of(report.unsound, "face", "faces") + " fold over or pass through others");
   table.add("rounds", fmt::format("{}; {}", report.rounds.size(), end_text(report)));
   if (!written.empty()) table.add("written", written);
   job.print(table);

@@ -1,7 +1,7 @@
 /// \file Amplifies the detail of a mesh.
 #pragma once
 #include "batten/expand/mesh_series.h"
-#include "batten/expand/self_intersections.h"
+#include "batten/mesh/self_intersections.h"
 
 namespace batten {
 
