@@ -9,7 +9,6 @@
 #include "batten/error.h"
 #include "batten/fit/mesh_samples.h"
 #include "batten/io/io.h"
-#include "batten/mesh/vertex_normals.h"
 #include "batten/refine/refinement.h"
 #include "cli/fit_arguments.h"
 #include "cli/job.h"
@@ -18,27 +17,6 @@
 
 namespace batten::cli {
 namespace {
-
-/// Points with the normals that the file states.
-PointCloud stated_cloud(Mesh mesh) {
-  PointCloud cloud;
-  if (states_normals(mesh)) {
-    cloud.normals = stated_normals(mesh);
-    cloud.normals.rowwise().normalize();
-  }
-  cloud.points = std::move(mesh.points);
-  return cloud;
-}
-
-/// Points spread over the faces of a mesh, so many that a surface of `vertices` control points follows it.
-PointCloud sampled_cloud(const Mesh& mesh, Index vertices) {
-  constexpr Index kLeast = 10000;
-  constexpr Index kMost = 200000;
-  constexpr Index kOfVertex = 12;
-  const Index count = std::clamp(vertices, Index{1}, kMost / kOfVertex) * kOfVertex;
-  MeshSamples samples = sample_mesh(mesh, std::max(kLeast, count));
-  return {std::move(samples.points), std::move(samples.normals)};
-}
 
 FitOptions options_of(const FitArguments& arguments, const Mesh& points, Job& job) {
   FitOptions options;
@@ -120,6 +98,7 @@ nlohmann::ordered_json report_json(const FitResult& result) {
           {"outliers", report.outliers},
           {"points_to_surface", summary_json(report.to_surface, report.diameter)},
           {"surface_to_points", summary_json(report.to_points, report.diameter)},
+          {"unsound_faces", report.unsound},
           {"end", end_word(report.end)},
           {"rounds", rounds_json(report)},
           {"peak_memory_bytes", peak_memory_bytes()}};
@@ -136,6 +115,8 @@ void print_table(const FitResult& result, const std::string& written, const Job&
   table.add("", distances_text(report.to_points, report.diameter) + " from the surface to the points");
   table.add("", fmt::format("% are of the enclosing sphere's diameter, {:.4g}; points are {:.4g} apart",
                             report.diameter, report.spacing));
+  if (report.unsound > 0)
+    table.add("unsound", count_of(report.unsound, "face", "faces") + " fold over or pass through others");
   table.add("rounds", fmt::format("{}; {}", report.rounds.size(), end_text(report)));
   if (!written.empty()) table.add("written", written);
   job.print(table);
@@ -172,8 +153,8 @@ int run_fit(const FitArguments& arguments) {
   Job job("fit", common);
   const FitOptions options = options_of(arguments, job.mesh, job);
   const Index vertices = std::max(options.vertices.value_or(0), options.initial ? options.initial->vertex_count() : 0);
+  const PointCloud cloud = cloud_of_mesh(job.mesh, vertices);
   Mesh points;
-  PointCloud cloud = job.mesh.face_count() > 0 ? sampled_cloud(job.mesh, vertices) : stated_cloud(std::move(job.mesh));
   points.points = cloud.points;
   job.stages.finish("sample");
   ProgressBar bar("fitting", common.quiet);

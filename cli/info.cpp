@@ -7,6 +7,7 @@
 #include "batten/mesh/check.h"
 #include "batten/mesh/places.h"
 #include "batten/mesh/seams.h"
+#include "batten/mesh/self_intersections.h"
 #include "batten/mesh/summary.h"
 #include "batten/mesh/vertex_fields.h"
 #include "batten/parallel/parallel.h"

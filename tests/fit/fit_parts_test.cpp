@@ -11,10 +11,12 @@
 #include "batten/fit/outliers.h"
 #include "batten/fit/squared_distance_model.h"
 #include "batten/fit/start_sphere.h"
+#include "batten/fit/surface_fitter.h"
 #include "batten/fit/thin_cloud.h"
 #include "batten/mesh/primitives.h"
 #include "batten/mesh/topology.h"
 #include "fit/clouds.h"
+#include "support/errors.h"
 
 namespace batten {
 namespace {
@@ -144,6 +146,17 @@ TEST(OutlierFilter, KeepsAPartThatIsFarAsAWhole) {
   Buffer<std::uint8_t> flags(1000, 0);
   filter.add_far(distances, flags);
   EXPECT_EQ(std::count(flags.begin(), flags.end(), 1), 0);
+}
+
+TEST(SurfaceFitter, StepsNeedNormals) {
+  const Mesh start = torus(6, 4);
+  PointCloud cloud{CloudMaker().torus(100), Points(0, 3)};
+  test::expect_error([&] { SurfaceFitter(Topology(start), Scheme(), start.points, cloud); }, ErrorCode::BadShape,
+                     "a normal for each point");
+  cloud.normals = estimate_normals(cloud.points);
+  SurfaceFitter fitter(Topology(start), Scheme(), start.points, cloud);
+  test::expect_error([&] { fitter.stepped(start.points, Values::Zero(3, 3)); }, ErrorCode::BadShape, "");
+  EXPECT_EQ(fitter.stepped(start.points, Values::Zero(24, 3)), start.points);
 }
 
 TEST(ThinnedRows, KeepSomeOfThePointsWhateverTheirOrder) {

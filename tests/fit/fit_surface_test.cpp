@@ -7,7 +7,10 @@
 #include <numeric>
 #include <vector>
 
+#include "batten/fit/surface_fitter.h"
+#include "batten/io/io.h"
 #include "batten/mesh/primitives.h"
+#include "batten/mesh/self_intersections.h"
 #include "batten/refine/refinement.h"
 #include "batten/surface/limit_surface.h"
 #include "batten/tessellate/surface_mesh.h"
@@ -140,6 +143,39 @@ TEST(FitSurface, DoesNotFollowOutliers) {
   EXPECT_LT(fit.distances.head(clean.rows()).norm() / std::sqrt(1500.0), 0.01);
 }
 
+/// Counted again on a finer tessellation than the fit looks at.
+TEST(FitSurface, NeitherFoldsNorPassesThroughItself) {
+  if (test::cloud_folder().empty()) GTEST_SKIP() << "set BATTEN_DATA to the folder of test data";
+  for (const char* const name : {"head-1779", "bunny-2000", "rocker-arm-2000"}) {
+    const Mesh points = read_mesh(test::cloud_folder() + name + ".xyz");
+    const FitResult fit = fit_surface({points.points, Points(0, 3)}, quick(386));
+    EXPECT_EQ(fit.report.unsound, 0) << name;
+    const Mesh fine = surface_mesh(fit.topology, fit.scheme, fit.mesh, 3);
+    EXPECT_EQ(find_self_intersections(Topology(fine), fine.points).count, 0) << name;
+    EXPECT_LT(fit.report.to_surface.max, 0.012 * fit.report.diameter) << name;
+  }
+}
+
+/// A control point shall go across two others along the tube.
+TEST(SurfaceFitter, HoldsPointsBeforeFacesFold) {
+  const Mesh start = torus(12, 8);
+  PointCloud cloud{CloudMaker().torus(300), Points(0, 3)};
+  cloud.normals = estimate_normals(cloud.points);
+  SurfaceFitter fitter(Topology(start), Scheme(), start.points, cloud);
+  EXPECT_FALSE(fitter.relax()) << "nothing is held";
+  Values step = Values::Zero(start.points.rows(), 3);
+  step.row(20) = 2.0 * (start.points.row(22) - start.points.row(20));
+  const Values moved = fitter.stepped(start.points, step);
+  EXPECT_LT((moved - start.points).row(20).norm(), 0.6 * step.row(20).norm());
+  EXPECT_EQ(fitter.control(), start.points) << "the surface does not move";
+  fitter.move_to(moved);
+  EXPECT_EQ(fitter.unsound_faces(), 0);
+  EXPECT_TRUE(fitter.relax());
+  EXPECT_EQ(fitter.unsound_faces(), 0);
+  fitter.move_to(start.points + step);
+  EXPECT_GT(fitter.unsound_faces(), 0);
+}
+
 TEST(FitSurface, StopsAtTheTolerance) {
   FitOptions options = quick(2000);
   options.start = FitStart::Sphere;
@@ -168,6 +204,20 @@ TEST(FitSurface, RefusesCloudsThatNoSurfaceFits) {
         fit_surface({CloudMaker().sphere(50), Points(0, 3)}, butterfly);
       },
       ErrorCode::BadArgument, "Butterfly");
+}
+
+/// Two control meshes, one after the other, each of which has rounds of several kinds.
+TEST(FitSurface, ReportsProgressThatNeverFalls) {
+  FitOptions options = quick(386);
+  options.start = FitStart::Sphere;
+  double last = 0.0;
+  const FitResult fit = fit_surface({CloudMaker().torus(500, 1.0, 0.7), Points(0, 3)}, options, [&](double share) {
+    EXPECT_GE(share, last - 1e-12);
+    last = share;
+    return true;
+  });
+  EXPECT_EQ(fit.topology.vertex_count(), 386);
+  EXPECT_GT(last, 0.8);
 }
 
 /// Cancelled at every moment: either nothing, or the surface of a whole round.

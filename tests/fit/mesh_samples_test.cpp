@@ -78,5 +78,22 @@ TEST(MeshSamples, RefuseWhatHasNoArea) {
   test::expect_error([] { sample_mesh({}, 10); }, ErrorCode::BadArgument, "area");
 }
 
+/// A file of points with normals of length 2, and a mesh.
+TEST(CloudOfMesh, TakesAFilesPointsAndNormalsOrSamplesItsFaces) {
+  Mesh file;
+  file.points = cube().points;
+  EXPECT_EQ(cloud_of_mesh(file, 100).points, file.points);
+  EXPECT_EQ(cloud_of_mesh(file, 100).normals.rows(), 0);
+  Attribute normal{"normal", 2.0 * file.points.rowwise().normalized(), {}};
+  file.attributes = {normal};
+  EXPECT_LT((cloud_of_mesh(file, 100).normals - file.points.rowwise().normalized()).norm(), 1e-12);
+  const PointCloud sampled = cloud_of_mesh(cube(), 2000);
+  EXPECT_EQ(sampled.points.rows(), 24000);
+  EXPECT_EQ(sampled.normals.rows(), 24000);
+  EXPECT_NEAR(sampled.points.rowwise().lpNorm<Eigen::Infinity>().minCoeff(), 1.0, 1e-12);
+  EXPECT_EQ(sample_count(1), 10000);
+  EXPECT_EQ(sample_count(10000000), 199992);
+}
+
 }  // namespace
 }  // namespace batten

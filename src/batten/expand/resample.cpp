@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "batten/error.h"
-#include "batten/mesh/self_intersections.h"
 #include "batten/interpolate/interpolator.h"
 #include "batten/limit/limit_matrix.h"
+#include "batten/mesh/self_intersections.h"
 #include "batten/progress.h"
 
 namespace batten {

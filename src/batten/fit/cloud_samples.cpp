@@ -43,11 +43,11 @@ Points in_own_unit(const Points& points, CloudSamples& samples) {
   return scaled;
 }
 
-void keep_rows(CloudSamples& samples, const std::vector<std::uint8_t>& kept) {
+void leave_out(const Buffer<std::uint8_t>& flags, CloudSamples& samples) {
   Index count = 0;
   const bool normals = samples.normals.rows() > 0;
   for (Index row = 0; row < static_cast<Index>(samples.points.rows()); ++row) {
-    if (kept[row] == 0) continue;
+    if (flags[row] != 0) continue;
     samples.points.row(count) = samples.points.row(row);
     if (normals) samples.normals.row(count) = samples.normals.row(row);
     ++count;
@@ -91,18 +91,12 @@ void require_spread(const Points& points) {
   if (!(off > 1e-9)) refuse_cloud();
 }
 
+/// Thinning has left out some already.
 void drop_outliers(CloudSamples& samples) {
-  constexpr int kRounds = 3;
-  constexpr Index kFewest = 50;
-  for (int round = 0; round < kRounds && samples.points.rows() >= kFewest; ++round) {
-    const auto size = static_cast<Index>(samples.points.rows());
-    const NeighbourTable neighbours = find_neighbours(PointTree(samples.points), kCloudNeighbours);
-    const std::vector<std::uint8_t> kept = without_lonely(samples.points, neighbours, spacing_of(neighbours, size));
-    const auto count = static_cast<Index>(std::count(kept.begin(), kept.end(), 1));
-    if (count == size || count < size / 2) break;
-    samples.outliers += size - count;
-    keep_rows(samples, kept);
-  }
+  const OutlierFilter filter(samples.points);
+  const auto before = static_cast<Index>(samples.points.rows());
+  leave_out(filter.lonely(), samples);
+  samples.outliers += before - static_cast<Index>(samples.points.rows());
 }
 
 void unit_rows(Points& normals) {

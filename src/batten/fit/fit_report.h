@@ -35,6 +35,7 @@ struct FitReport {
   double diameter = 0.0;       ///< of the smallest sphere around the points
   double spacing = 0.0;        ///< the median distance between neighbouring points
   Index outliers = 0;          ///< points that were not followed
+  Index unsound = 0;           ///< faces of the control mesh whose surface folds over or passes through another's
   FitEnd end = FitEnd::Budget;
   double seconds = 0.0;
 };

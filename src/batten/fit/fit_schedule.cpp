@@ -25,7 +25,6 @@ constexpr double kOfRefined = 4.0;
 }  // namespace
 
 FitSchedule::FitSchedule(const FitErrors& errors, double spacing) : best_(errors), spacing_(spacing) {
-  step_.fairness = kMostFair;
   step_.pull = 1.0;
   step_.fairness = std::min(kMostFair, std::max(kLeastFairness, kFairnessOfSquares * errors.bulk * errors.bulk));
   choose(errors);
@@ -49,7 +48,7 @@ void FitSchedule::note(const FitErrors& errors) {
   choose(errors);
 }
 
-void FitSchedule::note_outliers(const FitErrors& errors) {
+void FitSchedule::note_restart(const FitErrors& errors) {
   best_ = errors;
   idle_ = 0;
 }

@@ -23,8 +23,8 @@ class FitSchedule {
   void note(const FitErrors& errors);
   /// After the mesh was refined: a finer mesh bends more easily for the same fairness.
   void note_refined();
-  /// After other points became outliers: what was reached before counts no longer.
-  void note_outliers(const FitErrors& errors);
+  /// After a change that makes what was reached before count no longer, as other outliers.
+  void note_restart(const FitErrors& errors);
   /// True where the last rounds have gained too little.
   bool is_stuck() const { return idle_ >= kIdle; }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,23 +11,23 @@
 #include "batten/error.h"
 #include "batten/fit/enclosing_sphere.h"
 #include "batten/fit/first_mesh.h"
+#include "batten/fit/fit_distances.h"
 #include "batten/fit/fit_schedule.h"
 #include "batten/fit/outliers.h"
-#include "batten/fit/point_tree.h"
 #include "batten/fit/start_sphere.h"
 #include "batten/fit/surface_fitter.h"
 #include "batten/fit/thin_cloud.h"
 #include "batten/mesh/checked_values.h"
-#include "batten/nearest/nearest_point.h"
 #include "batten/quantile.h"
 #include "batten/refine/refinement.h"
-#include "batten/surface/quadrature.h"
 
 namespace batten {
 
 namespace {
 
 constexpr Index kUsualVertices = 400;
+/// About so many times as many control points has a refined mesh.
+constexpr double kOfRefinedVertices = 4.0;
 /// In the end a point counts with this power of its distance.
 constexpr double kWorstPower = 2.0;
 
@@ -120,16 +121,24 @@ class FitRun {
   /// All rounds and refinements.
   void go(const Progress& progress) {
     const Index most = options_.vertices.value_or(options_.initial ? 0 : kUsualVertices);
-    while (true) {
-      const bool last = refined_count(fitter_.topology(), fitter_.scheme().kind) > most;
-      go_level(progress);
-      if (last && report_.end == FitEnd::Budget) lower_worst(progress);
+    double levels = 1.0;
+    for (double count = next_count(); count <= most; count *= kOfRefinedVertices) levels += 1.0;
+    for (double level = 0.0;; level += 1.0) {
+      const bool last = next_count() > most;
+      go_level(last, progress_within(progress, std::min(level / levels, 1.0), std::min((level + 1.0) / levels, 1.0)));
       if (last || report_.end == FitEnd::Tolerance) return;
       fitter_.refine();
-      fitter_.attach(progress);
+      fitter_.attach();
+      best_.reset();
       judged_ = 0;
       schedule_.note_refined();
     }
+  }
+
+  /// Leaves the best surface of a fit that was interrupted.
+  void settle() {
+    if (best_) fitter_.move_to(best_->control);
+    fitter_.attach();
   }
 
   const Buffer<std::uint8_t>& outliers() const { return outliers_; }
@@ -145,18 +154,66 @@ class FitRun {
 
   bool reached(const FitErrors& errors) {
     if (!(options_.tolerance > 0.0) || !(errors.max * report_.diameter <= options_.tolerance)) return false;
+    if (fitter_.unsound_faces() > 0) return false;
     report_.end = FitEnd::Tolerance;
     return true;
   }
 
-  void go_level(const Progress& progress) {
+  /// Keeps the surface if it is the best so far: of those with the fewest unsound faces the nearest to the points.
+  void note_best() {
+    const double rms = measured().rms;
+    if (best_ && best_->unsound == 0 && !(rms < best_->rms)) return;
+    const Index unsound = fitter_.unsound_faces();
+    if (!best_ || unsound < best_->unsound || (unsound == best_->unsound && rms < best_->rms))
+      best_ = {fitter_.control(), unsound, rms};
+  }
+
+  /// Relaxes the surface where it is not sound, and goes on from there until it is.
+  void mend() {
+    constexpr int kRounds = 10;
+    for (int round = 0; round < kRounds && fitter_.hold_unsound() > 0; ++round) {
+      if (!fitter_.relax(Soundness::Unfolded)) return;
+      fitter_.attach();
+      go_round(Soundness::Unfolded);
+      note_best();
+    }
+  }
+
+  /// Goes back to the best surface of this control mesh; false if that is the last one.
+  bool return_to_best() {
+    if (!best_ || best_->control == fitter_.control()) return false;
+    fitter_.move_to(best_->control);
+    fitter_.attach();
+    schedule_.note_restart(measured());
+    return true;
+  }
+
+  double next_count() const { return refined_count(fitter_.topology(), fitter_.scheme().kind); }
+
+  /// All rounds of one control mesh. On the way to the points the surface may pass through itself: held back from that
+  /// it would often stay where it is. Rounds that start from the best whole surface then keep it so.
+  void go_level(bool last, const Progress& progress) {
+    go_rounds(Soundness::Unfolded, progress_within(progress, 0.0, 0.5));
+    mend();
+    if (return_to_best() && last && report_.end != FitEnd::Tolerance) {
+      go_rounds(Soundness::Whole, progress_within(progress, 0.5, 0.7));
+      return_to_best();
+    }
+    if (last && report_.end == FitEnd::Budget) lower_worst(progress_within(progress, 0.7, 1.0));
+  }
+
+  void go_rounds(Soundness asked, const Progress& progress) {
     report_.end = FitEnd::Rounds;
     for (int round = 0; round < options_.rounds; ++round) {
       report_progress(progress, static_cast<double>(round) / options_.rounds);
-      go_round();
+      go_round(asked);
       const FitErrors errors = measured();
       schedule_.note(errors);
-      if (reached(errors)) return;
+      note_best();
+      if (reached(errors)) {
+        best_ = {fitter_.control(), 0, errors.rms};
+        return;
+      }
       if (!schedule_.is_stuck()) continue;
       if (leave_out_far()) continue;
       report_.end = FitEnd::Budget;
@@ -172,7 +229,8 @@ class FitRun {
     ++judged_;
     outliers_ = std::move(flags);
     set_weights(0.0);
-    schedule_.note_outliers(measured());
+    best_.reset();
+    schedule_.note_restart(measured());
     return true;
   }
 
@@ -187,19 +245,19 @@ class FitRun {
     FitErrors best = measured();
     if (best.rms < kExact) return;
     const double most = kMostGrowth * best.rms;
-    Values kept = fitter_.control();
+    const Index unsound = fitter_.unsound_faces();
+    best_ = {fitter_.control(), unsound, best.rms};
     for (int round = 0; round < rounds; ++round) {
       report_progress(progress, static_cast<double>(round) / rounds);
       set_weights(kWorstPower);
-      go_round();
+      go_round(Soundness::Unfolded);
       const FitErrors errors = measured();
-      if (!(errors.max < best.max) || errors.rms > most) continue;
+      if (!(errors.max < best.max) || errors.rms > most || fitter_.unsound_faces() > unsound) continue;
       best = errors;
-      kept = fitter_.control();
+      best_->control = fitter_.control();
       if (reached(errors)) break;
     }
-    fitter_.move_to(kept);
-    fitter_.attach(progress);
+    settle();
   }
 
   /// Outliers count nothing, others by a power of their distance; half of it is what they counted before.
@@ -218,23 +276,26 @@ class FitRun {
   }
 
   /// Moves by a step, or by a part of it that lowers the objective.
-  void go_round() {
+  void go_round(Soundness asked) {
     constexpr int kHalvings = 3;
+    constexpr double kGain = 0.03;
     const Stopwatch watch;
     FitRound round;
     const FitStep& step = schedule_.step();
+    if (gain_ < kGain && fitter_.relax(asked)) fitter_.attach();
     const Values before = fitter_.control();
     SolveReport solved;
     Values move = fitter_.find_step(step, &solved);
     round.objective = fitter_.objective(step.fairness);
     for (int halving = 0; halving <= kHalvings; ++halving) {
       if (halving == kHalvings) move.setZero();
-      fitter_.move_to(fitter_.stepped(before, move));
+      fitter_.move_to(fitter_.stepped(before, move, asked));
       fitter_.attach();
       round.after = fitter_.objective(step.fairness);
       if (round.after <= round.objective) break;
       move *= 0.5;
     }
+    gain_ = 1.0 - round.after / round.objective;
     const FitErrors errors = measured();
     round.vertices = fitter_.topology().vertex_count();
     round.fairness = step.fairness;
@@ -251,46 +312,17 @@ class FitRun {
   const OutlierFilter& filter_;
   Buffer<std::uint8_t> outliers_;
   FitSchedule schedule_;
+  /// What was best of a control mesh.
+  struct BestSurface {
+    Values control;
+    Index unsound;  ///< faces
+    double rms;     ///< share of the diameter
+  };
+  std::optional<BestSurface> best_;
+  double gain_ = 1.0;  ///< the share of the objective that the last round took off
   static constexpr int kJudgements = 3;
   int judged_ = 0;  ///< how often outliers were sought for the present control mesh
 };
-
-/// From places spread over the surface to the nearest points.
-DistanceSummary measure_to_points(const SurfaceFitter& fitter) {
-  constexpr int kPlaces = 4;
-  const LimitSurface surface(fitter.topology(), fitter.scheme(), fitter.control());
-  const SurfaceQuadrature quadrature = surface_quadrature(surface.patches(), {kPlaces, 0});
-  std::vector<Jet> jets(quadrature.places.size());
-  surface.jets(quadrature.places, jets);
-  const PointTree tree(fitter.cloud().points);
-  Scalars distances(static_cast<Eigen::Index>(jets.size()));
-  for (std::size_t i = 0; i < jets.size(); ++i)
-    distances[static_cast<Eigen::Index>(i)] = tree.distance(jets[i].point.transpose());
-  return summarize_distances(distances);
-}
-
-/// Of all points to the surface.
-Scalars measure_to_surface(const SurfaceFitter& fitter, const Points& points) {
-  if (points.rows() == fitter.cloud().points.rows()) return fitter.distances();
-  const NearestPoints nearest(fitter.topology(), fitter.scheme(), fitter.control());
-  std::vector<NearestPoint> found(static_cast<std::size_t>(points.rows()));
-  nearest.nearest(points, found);
-  Scalars distances(points.rows());
-  for (std::size_t i = 0; i < found.size(); ++i) distances[static_cast<Eigen::Index>(i)] = found[i].distance;
-  return distances;
-}
-
-/// Of the points that are no outliers.
-DistanceSummary summarize_followed(const Scalars& distances, const Buffer<std::uint8_t>& outliers, Index& left_out) {
-  std::vector<Index> followed;
-  for (Index i = 0; i < static_cast<Index>(outliers.size()); ++i) {
-    if (outliers[i] == 0) followed.push_back(i);
-  }
-  left_out = static_cast<Index>(outliers.size() - followed.size());
-  DistanceSummary summary = summarize_distances(distances(followed));
-  summary.max_point = followed[static_cast<std::size_t>(summary.max_point)];
-  return summary;
-}
 
 }  // namespace
 
@@ -300,12 +332,11 @@ FitResult fit_surface(const PointCloud& cloud, const FitOptions& options, const 
   FitReport report;
   report.diameter = 2.0 * enclosing_sphere(cloud.points).radius;
   if (!(report.diameter > 0.0)) throw Error(ErrorCode::BadArgument, "all points are at the same place");
-  const Progress preparing = progress_within(progress, 0.0, 0.2);
-  const PointCloud known = working_cloud(cloud, options, preparing);
-  const Mesh start = starting_mesh(known, options, preparing);
-  SurfaceFitter fitter(Topology(start), options.scheme, start.points, known, preparing);
-  fitter.attach(preparing);
-  const OutlierFilter filter(known.points, preparing);
+  const PointCloud known = working_cloud(cloud, options, progress_within(progress, 0.0, 0.05));
+  const Mesh start = starting_mesh(known, options, progress_within(progress, 0.05, 0.15));
+  SurfaceFitter fitter(Topology(start), options.scheme, start.points, known, progress_within(progress, 0.15, 0.17));
+  fitter.attach(progress_within(progress, 0.17, 0.18));
+  const OutlierFilter filter(known.points, progress_within(progress, 0.18, 0.2));
   FitRun run(fitter, options, report, filter);
   const Progress rounds = progress_within(progress, 0.2, 1.0);
   try {
@@ -313,7 +344,7 @@ FitResult fit_surface(const PointCloud& cloud, const FitOptions& options, const 
   } catch (const Error& error) {
     if (error.code() != ErrorCode::Cancelled || report.rounds.empty()) throw;
     report.end = FitEnd::Cancelled;
-    fitter.attach();
+    run.settle();
   }
   Scalars distances = measure_to_surface(fitter, cloud.points);
   const bool thinned = known.points.rows() < cloud.points.rows();
@@ -326,6 +357,7 @@ FitResult fit_surface(const PointCloud& cloud, const FitOptions& options, const 
   report.spacing = whole.spacing();
   report.to_surface = summarize_followed(distances, outliers, report.outliers);
   report.to_points = measure_to_points(fitter);
+  report.unsound = fitter.unsound_faces();
   report.seconds = watch.seconds();
   Mesh mesh = mesh_from_topology(fitter.topology());
   mesh.points = fitter.control();

@@ -11,6 +11,7 @@
 #include "batten/mesh/topology.h"
 #include "batten/mesh/triangulate.h"
 #include "batten/mesh/vertex_measure.h"
+#include "batten/mesh/vertex_normals.h"
 #include "batten/parallel/parallel.h"
 #include "batten/progress.h"
 
@@ -156,6 +157,26 @@ MeshSamples sample_mesh(const Mesh& mesh, Index count, const MeshSampleOptions& 
   take_edges(samples, mesh, topology, SampleKind::Crease, creases);
   take_edges(samples, mesh, topology, SampleKind::Boundary, boundaries);
   return samples;
+}
+
+Index sample_count(Index vertices) {
+  constexpr Index kLeast = 10000;
+  constexpr Index kMost = 200000;
+  constexpr Index kOfVertex = 12;
+  return std::max(kLeast, std::clamp(vertices, Index{1}, kMost / kOfVertex) * kOfVertex);
+}
+
+PointCloud cloud_of_mesh(const Mesh& mesh, Index vertices) {
+  if (mesh.face_count() > 0) {
+    MeshSamples samples = sample_mesh(mesh, sample_count(vertices));
+    return {std::move(samples.points), std::move(samples.normals)};
+  }
+  PointCloud cloud{mesh.points, Points(0, 3)};
+  if (states_normals(mesh)) {
+    cloud.normals = stated_normals(mesh);
+    cloud.normals.rowwise().normalize();
+  }
+  return cloud;
 }
 
 }  // namespace batten

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "batten/buffer.h"
+#include "batten/fit/point_cloud.h"
 #include "batten/mesh/mesh.h"
 
 namespace batten {
@@ -36,5 +37,12 @@ struct MeshSamples {
 /// BadArgument (no area, a count below 1 or above 100 million, an angle out of [0, pi]), Cancelled.
 MeshSamples sample_mesh(const Mesh& mesh, Index count, const MeshSampleOptions& options = {},
                         const Progress& progress = {});
+
+/// So many samples that a surface of `vertices` control points follows them: 12 for each, 10,000 to 200,000.
+Index sample_count(Index vertices);
+
+/// The points of a file that a surface of `vertices` control points shall follow: of a mesh sample_count(vertices)
+/// samples; without faces its points, with the normals that it states. Throws as sample_mesh().
+PointCloud cloud_of_mesh(const Mesh& mesh, Index vertices);
 
 }  // namespace batten

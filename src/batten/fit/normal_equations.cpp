@@ -13,6 +13,8 @@ namespace batten {
 namespace {
 
 constexpr std::ptrdiff_t kRowBlock = 64;
+/// Each block of rows has a table of all columns.
+constexpr std::ptrdiff_t kMostBlocks = 64;
 
 /// Which places each control point has a weight in.
 struct PlacesOfPoints {
@@ -80,7 +82,7 @@ void NormalEquations::assemble(const Matrix& rows, std::span<const Form> forms, 
           right_.row(v) = right.transpose();
         }
       },
-      kRowBlock);
+      std::max(kRowBlock, energy_.rows() / kMostBlocks));
   double trace = 0.0;
   for (Index v = 0; v < static_cast<Index>(energy_.rows()); ++v) {
     for (int i = energy_.outerIndexPtr()[v]; i < energy_.outerIndexPtr()[v + 1]; ++i) {

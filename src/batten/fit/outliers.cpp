@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "batten/fit/orientation.h"
 #include "batten/parallel/parallel.h"
@@ -22,22 +23,8 @@ double median_neighbour(const Scalars& numbers, const NeighbourTable& neighbours
   return quantile(few, 0.5);
 }
 
-}  // namespace
-
-Scalars spacing_of(const NeighbourTable& neighbours, Index size) {
-  Scalars spacing(size);
-  for (Index row = 0; row < size; ++row) {
-    double sum = 0.0;
-    Index count = 0;
-    for (; count < kSpacingNeighbours && neighbours.point(row, count) >= 0; ++count)
-      sum += neighbours.distance(row, count);
-    spacing(row) = sum / std::max<Index>(count, 1);
-  }
-  return spacing;
-}
-
-std::vector<std::uint8_t> without_lonely(const Points& points, const NeighbourTable& neighbours,
-                                         const Scalars& spacing) {
+/// One flag a point, 0 for lonely ones.
+std::vector<std::uint8_t> not_lonely(const Points& points, const NeighbourTable& neighbours, const Scalars& spacing) {
   constexpr double kRough = 0.06;
   std::vector<std::uint8_t> kept(static_cast<std::size_t>(spacing.size()), 1);
   std::vector<double> few(spacing.data(), spacing.data() + spacing.size());
@@ -50,6 +37,20 @@ std::vector<std::uint8_t> without_lonely(const Points& points, const NeighbourTa
     if (alone || (rough && spacing(row) > 2.5 * typical)) kept[row] = 0;
   }
   return kept;
+}
+
+}  // namespace
+
+Scalars spacing_of(const NeighbourTable& neighbours, Index size) {
+  Scalars spacing(size);
+  for (Index row = 0; row < size; ++row) {
+    double sum = 0.0;
+    Index count = 0;
+    for (; count < kSpacingNeighbours && neighbours.point(row, count) >= 0; ++count)
+      sum += neighbours.distance(row, count);
+    spacing(row) = sum / std::max<Index>(count, 1);
+  }
+  return spacing;
 }
 
 OutlierFilter::OutlierFilter(const Points& points, const Progress& progress)
@@ -72,7 +73,7 @@ void OutlierFilter::find_lonely(const Points& points) {
     const Points left = points(rows, Eigen::all);
     const auto size = static_cast<Index>(rows.size());
     const NeighbourTable among = round == 0 ? neighbours_ : find_neighbours(PointTree(left), kCloudNeighbours);
-    const std::vector<std::uint8_t> kept = without_lonely(left, among, spacing_of(among, size));
+    const std::vector<std::uint8_t> kept = not_lonely(left, among, spacing_of(among, size));
     const auto count = std::count(kept.begin(), kept.end(), 1);
     if (count == size || count < size / 2) break;
     std::vector<Index> next;

@@ -1,7 +1,6 @@
 /// \file Points that a surface shall not follow.
 #pragma once
 #include <cstdint>
-#include <vector>
 
 #include "batten/buffer.h"
 #include "batten/fit/point_tree.h"
@@ -14,11 +13,6 @@ inline constexpr Index kCloudNeighbours = 12;
 /// The mean distance of each point's nearest few.
 Scalars spacing_of(const NeighbourTable& neighbours, Index size);
 
-/// One flag a point, 0 for those that are much farther from their neighbours than those are from theirs, and those that
-/// are far from everything and not in one plane with what is around them. Others may become lonely once they are gone.
-std::vector<std::uint8_t> without_lonely(const Points& points, const NeighbourTable& neighbours,
-                                         const Scalars& spacing);
-
 /// Judges points by their neighbours, built once for a cloud. Memory: 200 bytes a point.
 class OutlierFilter {
  public:
@@ -28,7 +22,9 @@ class OutlierFilter {
   /// The median distance between neighbouring points.
   double spacing() const { return spacing_; }
 
-  /// One flag a point, 1 for those that without_lonely() leaves out, three times over.
+  /// One flag a point, 1 for those that are much farther from their neighbours than those are from theirs, and those
+  /// that are far from everything and not in one plane with what is around them. Others may become lonely once they are
+  /// gone: three rounds.
   const Buffer<std::uint8_t>& lonely() const { return lonely_; }
 
   /// Adds those whose distance from a surface is eight times the median of their neighbours', and above one and a half

@@ -11,6 +11,7 @@
 #include "batten/error.h"
 #include "batten/fit/normal_equations.h"
 #include "batten/fit/point_tree.h"
+#include "batten/fit/surface_guard.h"
 #include "batten/limit/limit_matrix.h"
 #include "batten/mesh/checked_values.h"
 #include "batten/parallel/parallel.h"
@@ -50,19 +51,24 @@ struct FitLevel {
   SurfaceWeights weights;
   NearestPoints nearest;
   LimitSurface surface;
-  Scalars stiffness;  ///< of each control point against moves along the surface
+  SurfaceGuard guard;
+  Scalars stiffness;          ///< of each control point against moves along the surface
+  Buffer<std::uint8_t> held;  ///< one flag a control point: the last step stopped it before faces folded
   NormalEquations equations;
   double energy_scale;
   SurfaceQuadrature samples;  ///< places that are drawn to the data
 
   FitLevel(const Topology& topology_in, const Scheme& scheme, ConstValuesRef control, const Progress& progress)
       : topology(topology_in),
-        patches(topology, scheme, progress),
+        patches(topology, scheme, progress_within(progress, 0.0, 0.3)),
         weights(patches),
-        nearest(patches, control, progress),
+        nearest(patches, control, progress_within(progress, 0.3, 0.6)),
         surface(patches, control),
+        guard(patches),
         stiffness(Scalars::Ones(topology.vertex_count())),
-        equations(SurfaceEnergy(patches, thin_plate()).matrix(EnergyKind::Stiffness, progress)),
+        held(static_cast<std::size_t>(topology.vertex_count()), 0),
+        equations(
+            SurfaceEnergy(patches, thin_plate()).matrix(EnergyKind::Stiffness, progress_within(progress, 0.6, 1.0))),
         energy_scale(scale_of(equations.energy())),
         samples(surface_quadrature(patches, {kSamplePoints, 0})) {}
 
@@ -97,37 +103,6 @@ double median_spacing(const PointTree& tree) {
   return quantile(distances, 0.5);
 }
 
-/// One flag a face of the base: between neighbours of a grid of places on it the normal turns by more than a right
-/// angle.
-Buffer<std::uint8_t> folded_faces(const FitLevel& level) {
-  constexpr int kSide = 6;
-  constexpr std::ptrdiff_t kBlock = 64;
-  const Index faces = level.patches.base().face_count();
-  Buffer<std::uint8_t> folded(static_cast<std::size_t>(faces), 0);
-  const bool quads = level.patches.quads();
-  const double middle = quads ? 0.5 : 1.0 / 3.0;
-  parallel_for(
-      faces,
-      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-        std::array<Eigen::Vector3d, static_cast<std::size_t>(kSide)> row;
-        for (auto f = static_cast<Index>(begin); f < static_cast<Index>(end); ++f) {
-          for (int j = 0; j < kSide; ++j) {
-            Eigen::Vector3d last = Eigen::Vector3d::Zero();
-            for (int i = 0; i < (quads ? kSide : kSide - j); ++i) {
-              const Jet jet = level.surface.jet({f, (i + middle) / kSide, (j + middle) / kSide});
-              const Eigen::Vector3d normal = jet.du.cross(jet.dv);
-              Eigen::Vector3d& below = row[static_cast<std::size_t>(i)];
-              if ((i > 0 && normal.dot(last) < 0.0) || (j > 0 && normal.dot(below) < 0.0)) folded[f] = 1;
-              below = normal;
-              last = normal;
-            }
-          }
-        }
-      },
-      kBlock);
-  return folded;
-}
-
 /// Marks the vertices of a face and of those around it.
 void hold_around(const Topology& topology, Index face, Buffer<std::uint8_t>& held) {
   for (Index h = topology.face_begin(face); h < topology.face_end(face); ++h) {
@@ -136,6 +111,60 @@ void hold_around(const Topology& topology, Index face, Buffer<std::uint8_t>& hel
       for (Index i = topology.face_begin(other); i < topology.face_end(other); ++i) held[topology.origin(i)] = 1;
     });
   }
+}
+
+/// The control points moved, where those around faces that would become unsound go a shorter way or none; these are
+/// flagged in `held`. What is unsound already may stay so.
+Values kept_sound(const FitLevel& level, const Values& control, const Values& step, Soundness asked,
+                  Buffer<std::uint8_t>& held) {
+  constexpr int kHalvings = 3;
+  constexpr int kTrials = 8;
+  const Buffer<std::uint8_t> before = level.guard.unsound(control, asked);
+  Scalars share = Scalars::Ones(control.rows());
+  for (int trial = 0; trial < kTrials; ++trial) {
+    Values moved = control + share.asDiagonal() * step;
+    const Buffer<std::uint8_t> after = level.guard.unsound(moved, asked, before);
+    Buffer<std::uint8_t> around(held.size(), 0);
+    bool any = false;
+    for (Index f = 0; f < static_cast<Index>(after.size()); ++f) {
+      if (after[f] == 0 || before[f] != 0) continue;
+      any = true;
+      hold_around(level.topology, f, around);
+    }
+    if (!any) return moved;
+    for (std::size_t v = 0; v < held.size(); ++v) {
+      if (around[v] == 0) continue;
+      held[v] = 1;
+      share[static_cast<Eigen::Index>(v)] *= trial < kHalvings ? 0.5 : 0.0;
+    }
+  }
+  return control;
+}
+
+/// Smooth inner control points that are held, moved along the surface towards the mean of their neighbours.
+Values relaxed_along(const FitLevel& level, const Scheme& scheme, Values control) {
+  constexpr int kSweeps = 2;
+  constexpr double kPart = 0.5;
+  const Topology& topology = level.topology;
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    const Values before = control;
+    const Values normals = limit_normals(topology, scheme, before).vertices;
+    for (Index v = 0; v < topology.vertex_count(); ++v) {
+      if (level.held[v] == 0 || topology.is_boundary_vertex(v) || topology.vertex_sharpness(v) > 0.0F) continue;
+      Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+      Index count = 0;
+      bool sharp = false;
+      topology.for_each_outgoing(v, [&](Index h) {
+        sum += before.row(topology.destination(h));
+        sharp = sharp || topology.edge_sharpness(topology.edge(h)) > 0.0F;
+        ++count;
+      });
+      if (sharp) continue;
+      const Eigen::RowVector3d move = kPart * (sum / count - before.row(v));
+      control.row(v) += move - move.dot(normals.row(v)) * normals.row(v);
+    }
+  }
+  return control;
 }
 
 /// Places of the surface, where each is drawn to and how.
@@ -156,7 +185,7 @@ void scale(double factor, Form& form) {
 }
 
 bool are_opposed(const Jet& jet, const PointCloud& cloud, Eigen::Index point) {
-  return cloud.normals.rows() > 0 && jet.du.cross(jet.dv).dot(cloud.normals.row(point).transpose()) < 0.0;
+  return jet.du.cross(jet.dv).dot(cloud.normals.row(point).transpose()) < 0.0;
 }
 
 /// Each point draws the place nearest to it, or where that faces the other way the nearest sample that does not.
@@ -234,9 +263,10 @@ void SurfaceFitter::set_cloud(PointCloud cloud) {
   require_finite(cloud.normals, "normals");
   const Eigen::Index count = cloud.points.rows();
   if (count == 0) throw Error(ErrorCode::BadArgument, "there are no points to fit");
-  if (cloud.normals.rows() != 0 && cloud.normals.rows() != count)
-    throw Error(ErrorCode::BadShape, "there are " + std::to_string(cloud.normals.rows()) + " normals for " +
-                                         std::to_string(count) + " points");
+  if (cloud.normals.rows() != count)
+    throw Error(ErrorCode::BadShape, "a fit needs a normal for each point: there are " +
+                                         std::to_string(cloud.normals.rows()) + " for " + std::to_string(count) +
+                                         " points; see estimate_normals()");
   Parts& parts = *parts_;
   parts.tree = PointTree(cloud.points);
   parts.cloud = std::move(cloud);
@@ -314,34 +344,41 @@ void SurfaceFitter::move_to(const Values& control) {
   parts_->control = control;
 }
 
-Values SurfaceFitter::stepped(const Values& control, const Values& step) {
-  constexpr int kHalvings = 4;
+Values SurfaceFitter::stepped(const Values& control, const Values& step, Soundness asked) {
   FitLevel& level = *parts_->level;
-  level.surface.set_control(control);
-  const Buffer<std::uint8_t> before = folded_faces(level);
-  level.stiffness = (kSoften * level.stiffness).cwiseMax(1.0);
-  Scalars share = Scalars::Ones(control.rows());
-  Values moved;
-  for (int halving = 0; halving <= kHalvings; ++halving) {
-    moved = control + share.asDiagonal() * step;
-    level.surface.set_control(moved);
-    const Buffer<std::uint8_t> after = folded_faces(level);
-    Buffer<std::uint8_t> held(static_cast<std::size_t>(control.rows()), 0);
-    bool any = false;
-    for (Index f = 0; f < static_cast<Index>(after.size()); ++f) {
-      if (after[f] == 0 || before[f] != 0) continue;
-      any = true;
-      hold_around(level.topology, level.patches.control_face(f), held);
-    }
-    if (!any) break;
-    for (std::size_t v = 0; v < held.size(); ++v) {
-      if (held[v] == 0) continue;
-      const auto row = static_cast<Eigen::Index>(v);
-      share[row] *= halving + 1 < kHalvings ? 0.5 : 0.0;
-      if (halving == 0) level.stiffness[row] = std::min(kStiffest, level.stiffness[row] * kStiffen);
-    }
+  require_control_points(level.topology, control);
+  require_control_points(level.topology, step);
+  std::fill(level.held.begin(), level.held.end(), std::uint8_t{0});
+  Values moved = kept_sound(level, control, step, asked, level.held);
+  for (Eigen::Index v = 0; v < level.stiffness.size(); ++v) {
+    const bool held = level.held[static_cast<std::size_t>(v)] != 0;
+    level.stiffness[v] = std::clamp(level.stiffness[v] * (held ? kStiffen : kSoften), 1.0, kStiffest);
   }
   return moved;
+}
+
+bool SurfaceFitter::relax(Soundness asked) {
+  FitLevel& level = *parts_->level;
+  if (std::count(level.held.begin(), level.held.end(), 1) == 0) return false;
+  const Values control = relaxed_along(level, parts_->scheme, parts_->control);
+  Buffer<std::uint8_t> blocked(level.held.size(), 0);
+  move_to(asked == Soundness::Unfolded ? control
+                                       : kept_sound(level, parts_->control, control - parts_->control, asked, blocked));
+  return true;
+}
+
+Index SurfaceFitter::unsound_faces() const {
+  const Buffer<std::uint8_t> flags = parts_->level->guard.unsound(parts_->control, Soundness::Whole);
+  return static_cast<Index>(std::count(flags.begin(), flags.end(), 1));
+}
+
+Index SurfaceFitter::hold_unsound() {
+  FitLevel& level = *parts_->level;
+  const Buffer<std::uint8_t> flags = level.guard.unsound(parts_->control, Soundness::Whole);
+  for (Index f = 0; f < static_cast<Index>(flags.size()); ++f) {
+    if (flags[f] != 0) hold_around(level.topology, f, level.held);
+  }
+  return static_cast<Index>(std::count(flags.begin(), flags.end(), 1));
 }
 
 void SurfaceFitter::refine() {

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "batten/fit/point_cloud.h"
+#include "batten/fit/surface_guard.h"
 #include "batten/mesh/topology.h"
 #include "batten/nearest/nearest_point.h"
 #include "batten/progress.h"
@@ -31,7 +32,7 @@ struct FitStep {
 class SurfaceFitter {
  public:
   /// control: V-by-3, the start. cloud: the data, with normals, kept as a copy. Throws Error(NotTriangles, BadArgument
-  /// for the Butterflies, BadShape, NotFinite, TooLarge, Cancelled).
+  /// for the Butterflies or no points, BadShape where normals are not one a point, NotFinite, TooLarge, Cancelled).
   SurfaceFitter(const Topology& topology, const Scheme& scheme, ConstValuesRef control, PointCloud cloud,
                 const Progress& progress = {});
   ~SurfaceFitter();
@@ -68,8 +69,19 @@ class SurfaceFitter {
   /// Moves the surface. Attachments are then those of the surface before, until attach() is called.
   void move_to(const Values& control);
 
-  /// The control points after a step, where control points whose faces would fold over go a shorter way.
-  Values stepped(const Values& control, const Values& step);
+  /// The control points after a step, where control points go a shorter way or none before faces around them fold over
+  /// or, as asked, pass through others. The surface does not move. control, step: V-by-3. Throws Error(BadShape,
+  /// NotFinite).
+  Values stepped(const Values& control, const Values& step, Soundness asked = Soundness::Whole);
+
+  /// Moves control points that the last stepped() held along the surface towards the mean of their neighbours, so that
+  /// they can go on; false where there are none. With Unfolded the surface may fold or pass through itself afterwards.
+  bool relax(Soundness asked = Soundness::Whole);
+
+  /// Faces of the control mesh whose surface folds over or passes through another's.
+  Index unsound_faces() const;
+  /// Holds the control points around these faces, so that relax() moves them; returns how many faces there are.
+  Index hold_unsound();
 
   /// Refines the control mesh; the surface stays where it is.
   void refine();

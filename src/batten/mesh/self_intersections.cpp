@@ -14,7 +14,6 @@ namespace batten {
 
 namespace {
 
-constexpr std::size_t kMostListed = 10;
 constexpr int kFanout = 8;
 
 struct Box {
@@ -209,7 +208,8 @@ class PairTest {
 
 }  // namespace
 
-SelfIntersections find_self_intersections(const Topology& topology, ConstValuesRef points, const Progress& progress) {
+SelfIntersections find_self_intersections(const Topology& topology, ConstValuesRef points, const Progress& progress,
+                                          Index most_listed) {
   require_vertex_rows(topology, points);
   if (points.cols() != 3) throw Error(ErrorCode::BadShape, "intersections need points of three columns");
   if (!points.allFinite()) throw Error(ErrorCode::NotFinite, "the points hold a number that is not finite");
@@ -230,11 +230,11 @@ SelfIntersections find_self_intersections(const Topology& topology, ConstValuesR
     }
     return found;
   };
-  const auto combine = [](SelfIntersections a, const SelfIntersections& b) {
+  const auto combine = [most = static_cast<std::size_t>(most_listed)](SelfIntersections a, const SelfIntersections& b) {
     a.count += b.count;
     a.faces.insert(a.faces.end(), b.faces.begin(), b.faces.end());
     std::sort(a.faces.begin(), a.faces.end());
-    if (a.faces.size() > kMostListed) a.faces.resize(kMostListed);
+    if (a.faces.size() > most) a.faces.resize(most);
     return a;
   };
   SelfIntersections all =
