@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "batten/error.h"
-#include "batten/mesh/self_intersections.h"
 #include "batten/mesh/check.h"
 #include "batten/mesh/places.h"
 #include "batten/mesh/seams.h"

@@ -70,8 +70,8 @@ struct WriteOptions {
   bool binary = true;
   /// GLB and USDA: the mesh's up axis. Auto: find_up_axis without a format, that is guess_up_axis(mesh, UpAxis::Y).
   UpAxis up = UpAxis::Y;
-  /// A line for other programs in OBJ, PLY and STL (there in the header's 80 bytes), such as "SPACE=RAS"; without a line
-  /// end.
+  /// A line for other programs in OBJ, PLY and STL (there in the header's 80 bytes), such as "SPACE=RAS"; without a
+  /// line end.
   std::string comment = {};
 };
 
