@@ -37,7 +37,7 @@ struct Box {
   }
 };
 
-struct TreeTriangle {
+struct BoxedTriangle {
   std::array<Index, 3> vertices;
   Index face;
 };
@@ -74,7 +74,7 @@ class TriangleTree {
   }
 
   std::ptrdiff_t count() const { return static_cast<std::ptrdiff_t>(triangles_.size()); }
-  const TreeTriangle& triangle(std::ptrdiff_t t) const { return triangles_[t]; }
+  const BoxedTriangle& triangle(std::ptrdiff_t t) const { return triangles_[t]; }
 
   /// Calls visit(other) for the triangles after t in the order whose boxes meet t's.
   template <typename Visit>
@@ -111,7 +111,7 @@ class TriangleTree {
   }
 
   /// The bounds rounded outwards to float.
-  Box box_of(const TreeTriangle& triangle) const {
+  Box box_of(const BoxedTriangle& triangle) const {
     Box box = Box::empty();
     for (const Index v : triangle.vertices) {
       for (int c = 0; c < 3; ++c) {
@@ -141,7 +141,7 @@ class TriangleTree {
       }
     });
     std::sort(keys.begin(), keys.end());
-    Buffer<TreeTriangle> sorted(triangles_.size());
+    Buffer<BoxedTriangle> sorted(triangles_.size());
     for (std::size_t t = 0; t < keys.size(); ++t) sorted[t] = triangles_[keys[t].second];
     triangles_.swap(sorted);
   }
@@ -154,7 +154,7 @@ class TriangleTree {
   }
 
   ConstValuesRef points_;
-  Buffer<TreeTriangle> triangles_;
+  Buffer<BoxedTriangle> triangles_;
   std::vector<Buffer<Box>> levels_;
 };
 
@@ -220,9 +220,9 @@ SelfIntersections find_self_intersections(const Topology& topology, ConstValuesR
   const auto search = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     SelfIntersections found;
     for (std::ptrdiff_t t = begin; t < end; ++t) {
-      const TreeTriangle& own = tree.triangle(t);
+      const BoxedTriangle& own = tree.triangle(t);
       tree.behind(t, [&](std::ptrdiff_t other) {
-        const TreeTriangle& second = tree.triangle(other);
+        const BoxedTriangle& second = tree.triangle(other);
         if (second.face == own.face || !test.cross(own.vertices, second.vertices)) return;
         ++found.count;
         found.faces.push_back({std::min(own.face, second.face), std::max(own.face, second.face)});

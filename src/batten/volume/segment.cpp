@@ -192,7 +192,8 @@ Segmentation segment_image(const Segmentation& start, const Volume& image, const
   const Volume near = cropped_around(image, start.mesh.points, kMargin);
   const SurfacePatches patches(start.topology, start.scheme);
   const SurfaceSamples samples(patches, GaussSamples{{2, 0}});
-  SurfaceFitter fitter(start.topology, start.scheme, start.mesh.points, {start.mesh.points, Points(0, 3)});
+  SurfaceFitter fitter(start.topology, start.scheme, start.mesh.points,
+                       {start.mesh.points, Points::Zero(start.mesh.points.rows(), 3)});
   GuardedSteps steps(fitter, result);
   std::optional<EdgeSearch> search;
   for (int round = 0; round < options.rounds; ++round) {
