@@ -200,7 +200,7 @@ Found segmented(const SegmentArguments& arguments, const Volume& image, const Vo
   if (mask) agreement = compare_with_mask(measures.fine, *mask);
   const EdgeStrength edges = edge_strength(measures.fine, image, kAlpha);
   job.stages.finish("measure");
-  return {std::move(surface), std::move(measures), std::move(agreement), edges, std::move(points)};
+  return {std::move(surface), std::move(measures), agreement, edges, std::move(points)};
 }
 
 }  // namespace

@@ -121,11 +121,16 @@ class FitRun {
   /// All rounds and refinements.
   void go(const Progress& progress) {
     const Index most = options_.vertices.value_or(options_.initial ? 0 : kUsualVertices);
-    double levels = 1.0;
-    for (double count = next_count(); count <= most; count *= kOfRefinedVertices) levels += 1.0;
-    for (double level = 0.0;; level += 1.0) {
+    int levels = 1;
+    double count = next_count();
+    while (count <= most) {
+      count *= kOfRefinedVertices;
+      ++levels;
+    }
+    const auto share = [levels](int level) { return std::min(static_cast<double>(level) / levels, 1.0); };
+    for (int level = 0;; ++level) {
       const bool last = next_count() > most;
-      go_level(last, progress_within(progress, std::min(level / levels, 1.0), std::min((level + 1.0) / levels, 1.0)));
+      go_level(last, progress_within(progress, share(level), share(level + 1)));
       if (last || report_.end == FitEnd::Tolerance) return;
       fitter_.refine();
       fitter_.attach();
