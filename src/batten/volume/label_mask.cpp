@@ -44,7 +44,7 @@ VoxelBox box_of(const Volume& volume, const Test& has) {
   }
   std::string text;
   for (const float value : there) {
-    if (text.size() > 0) text += ", ";
+    if (!text.empty()) text += ", ";
     std::string number = std::to_string(value);
     number.erase(number.find_last_not_of('0') + 1);
     if (number.back() == '.') number.pop_back();
