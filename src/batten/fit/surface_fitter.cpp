@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -91,6 +92,12 @@ struct FitState {
   std::unique_ptr<FitLevel> level;
   std::vector<NearestPoint> attached;
   Scalars distances;
+  std::optional<Buffer<std::uint8_t>> unsound = {};  ///< one flag a face of the control mesh, once asked for
+
+  const Buffer<std::uint8_t>& unsound_flags() {
+    if (!unsound) unsound = level->guard.unsound(control, Soundness::Whole);
+    return *unsound;
+  }
 };
 
 struct SurfaceFitter::Parts : FitState {};
@@ -339,6 +346,7 @@ Values SurfaceFitter::find_step(const FitStep& options, SolveReport* report) con
 }
 
 void SurfaceFitter::move_to(const Values& control) {
+  parts_->unsound.reset();
   parts_->level->nearest.set_control(control);
   parts_->level->surface.set_control(control);
   parts_->control = control;
@@ -368,13 +376,13 @@ bool SurfaceFitter::relax(Soundness asked) {
 }
 
 Index SurfaceFitter::unsound_faces() const {
-  const Buffer<std::uint8_t> flags = parts_->level->guard.unsound(parts_->control, Soundness::Whole);
+  const Buffer<std::uint8_t>& flags = parts_->unsound_flags();
   return static_cast<Index>(std::count(flags.begin(), flags.end(), 1));
 }
 
 Index SurfaceFitter::hold_unsound() {
   FitLevel& level = *parts_->level;
-  const Buffer<std::uint8_t> flags = level.guard.unsound(parts_->control, Soundness::Whole);
+  const Buffer<std::uint8_t>& flags = parts_->unsound_flags();
   for (Index f = 0; f < static_cast<Index>(flags.size()); ++f) {
     if (flags[f] != 0) hold_around(level.topology, f, level.held);
   }
@@ -385,6 +393,7 @@ void SurfaceFitter::refine() {
   Parts& parts = *parts_;
   const Refinement refinement(parts.level->topology, parts.scheme);
   parts.control = refinement.apply(parts.control);
+  parts.unsound.reset();
   parts.scheme = parts.scheme.after_first_step();
   parts.level = std::make_unique<FitLevel>(refinement.child(), parts.scheme, parts.control, Progress());
 }
