@@ -42,7 +42,12 @@ Peak best_peak(const std::vector<double>& values, double sign) {
 EdgeSearch::EdgeSearch(const Volume& image, double width)
     : slope_(gradient(image, 2.0 / width)),
       to_index_(image.grid.axes.inverse()),
-      step_(0.4 * std::min({image.grid.spacing(0), image.grid.spacing(1), image.grid.spacing(2)})) {}
+      step_(0.4 * std::min({image.grid.spacing(0), image.grid.spacing(1), image.grid.spacing(2)})) {
+  constexpr float kRounding = 1e-5F;  // of the image's numbers: weaker derivatives are those of no edge
+  float most = 0.0F;
+  for (const float value : image.values) most = std::max(most, std::abs(value));
+  least_ = kRounding * most / step_;
+}
 
 FoundEdges EdgeSearch::find(const Points& points, const Points& normals, double reach) const {
   constexpr double kSameStep = 0.6;
@@ -80,7 +85,7 @@ FoundEdges EdgeSearch::find(const Points& points, const Points& normals, double 
   const double strong = count > 0 ? quantile(strengths, kStrong) : 0.0;
   FoundEdges found{points, Scalars::Zero(points.rows())};
   for (std::size_t i = 0; i < count; ++i) {
-    if (!(peaks[i].strength > 0.0)) continue;
+    if (!(peaks[i].strength > least_)) continue;
     const auto row = static_cast<Eigen::Index>(i);
     found.places.row(row) += peaks[i].at * step_ * normals.row(row);
     found.weights[row] = std::pow(std::min(1.0, peaks[i].strength / strong), 2.0);

@@ -26,7 +26,8 @@ class EdgeSearch {
  private:
   Gradient slope_;
   Eigen::Matrix3d to_index_;
-  double step_;  ///< mm
+  double step_;   ///< mm
+  double least_;  ///< derivatives up to this are rounding
 };
 
 }  // namespace batten
