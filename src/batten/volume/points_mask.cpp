@@ -28,28 +28,32 @@ void for_each_beside(const VolumeGrid& grid, std::ptrdiff_t voxel, const Visit& 
   if (voxel < grid.count() - slice) visit(voxel + slice);
 }
 
-/// The voxels joined to `start` by voxels that `open` says.
+/// Gives `mark` to the voxels joined to `start` by voxels that are `open` and have no mark yet; returns how many.
 template <typename Open>
-Flags flooded(const VolumeGrid& grid, std::ptrdiff_t start, const Open& open) {
-  Flags reached(static_cast<std::size_t>(grid.count()), 0);
-  if (!open(start)) return reached;
+std::ptrdiff_t flood(const VolumeGrid& grid, std::ptrdiff_t start, const Open& open, Index mark, Buffer<Index>& marks) {
+  if (marks[start] != 0 || !open(start)) return 0;
   std::vector<std::ptrdiff_t> waiting{start};
-  reached[start] = 1;
+  marks[start] = mark;
+  std::ptrdiff_t count = 0;
   while (!waiting.empty()) {
     const std::ptrdiff_t voxel = waiting.back();
     waiting.pop_back();
+    ++count;
     for_each_beside(grid, voxel, [&](std::ptrdiff_t next) {
-      if (reached[next] != 0 || !open(next)) return;
-      reached[next] = 1;
+      if (marks[next] != 0 || !open(next)) return;
+      marks[next] = mark;
       waiting.push_back(next);
     });
   }
-  return reached;
+  return count;
 }
 
 /// The voxels that no ball of the radius reaches whose centre comes from the first voxel. distances: to the points.
 Flags enclosed(const VolumeGrid& grid, const Buffer<float>& distances, double radius) {
-  const Flags centres = flooded(grid, 0, [&](std::ptrdiff_t voxel) { return distances[voxel] > radius; });
+  Buffer<Index> marks(static_cast<std::size_t>(grid.count()), 0);
+  flood(
+      grid, 0, [&](std::ptrdiff_t voxel) { return distances[voxel] > radius; }, 1, marks);
+  const Flags centres(marks.begin(), marks.end());
   const Buffer<float> from_centres = distance_transform(grid, centres);
   Flags inside(centres.size());
   for (std::size_t i = 0; i < inside.size(); ++i) inside[i] = from_centres[i] > radius ? 1 : 0;
@@ -59,19 +63,22 @@ Flags enclosed(const VolumeGrid& grid, const Buffer<float>& distances, double ra
 double count_of(const Flags& flags) { return static_cast<double>(std::count(flags.begin(), flags.end(), 1)); }
 
 /// The largest piece alone.
-Flags largest_piece(const VolumeGrid& grid, Flags flags) {
-  Flags best(flags.size(), 0);
-  double most = 0.0;
+Flags largest_piece(const VolumeGrid& grid, const Flags& flags) {
+  Buffer<Index> marks(flags.size(), 0);
+  Index pieces = 0;
+  Index best = 0;
+  std::ptrdiff_t most = 0;
   for (std::ptrdiff_t i = 0; i < grid.count(); ++i) {
-    if (flags[i] == 0) continue;
-    Flags piece = flooded(grid, i, [&](std::ptrdiff_t voxel) { return flags[voxel] != 0; });
-    for (std::size_t v = 0; v < flags.size(); ++v) flags[v] = piece[v] != 0 ? 0 : flags[v];
-    const double count = count_of(piece);
+    const auto count = flood(
+        grid, i, [&](std::ptrdiff_t voxel) { return flags[voxel] != 0; }, pieces + 1, marks);
+    if (count > 0) ++pieces;
     if (count <= most) continue;
     most = count;
-    best = std::move(piece);
+    best = pieces;
   }
-  return best;
+  Flags piece(flags.size());
+  for (std::size_t i = 0; i < piece.size(); ++i) piece[i] = most > 0 && marks[i] == best ? 1 : 0;
+  return piece;
 }
 
 }  // namespace
