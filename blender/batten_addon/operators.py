@@ -180,8 +180,8 @@ class SurfaceThroughVertices(BattenOperator):
         return f"The surface misses its vertices by at most {_unit(context, error)}, at vertex {vertex}"
 
 
-class PointsOperator(BattenOperator):
-    """Operators that move the vertices of each selected mesh."""
+class MeshesOperator(BattenOperator):
+    """Operators that make another mesh of each selected one."""
 
     def prepare(self, context: bpy.types.Context) -> list[Job]:
         self._things = selected_meshes(context)
@@ -189,19 +189,30 @@ class PointsOperator(BattenOperator):
         for thing in self._things:
             exchange.require_editable(thing)
             mesh = exchange.mesh_of(thing.data)
-            jobs.append(lambda progress, mesh=mesh: self.moved(mesh, progress))
+            jobs.append(lambda progress, mesh=mesh: self.made(mesh, progress))
         return jobs
 
-    def moved(self, mesh: Any, progress: Progress) -> tuple[Any, str]:
-        """The mesh with its vertices elsewhere, and what to say."""
+    def made(self, mesh: Any, progress: Progress) -> tuple[Any, str]:
+        """The other mesh, and what to say."""
         raise NotImplementedError
+
+    def put(self, mesh: bpy.types.Mesh, made: Any) -> None:
+        """Puts it in the place of the one that was there."""
+        exchange.replace_mesh(mesh, made)
 
     def apply(self, context: bpy.types.Context, results: list[Any]) -> str:
         for thing, (mesh, _) in zip(self._things, results):
-            exchange.set_points(thing.data, mesh.points)
-            if mesh.creases:
-                exchange.set_edge_creases(thing.data, {(min(a, b), max(a, b)): s for a, b, s in mesh.creases})
+            self.put(thing.data, mesh)
         return results[-1][1]
+
+
+class PointsOperator(MeshesOperator):
+    """Operators that only move the vertices, and may find creases."""
+
+    def put(self, mesh: bpy.types.Mesh, made: Any) -> None:
+        exchange.set_points(mesh, made.points)
+        if made.creases:
+            exchange.set_edge_creases(mesh, {(min(a, b), max(a, b)): s for a, b, s in made.creases})
 
 
 class Denoise(PointsOperator):
@@ -215,7 +226,7 @@ class Denoise(PointsOperator):
     features: BoolProperty(name="Keep Sharp Edges", description="Find them, and tag them as creases", default=False)
     degrees: FloatProperty(name="Sharper Than", description="Degrees", default=40.0, min=1.0, max=179.0)
 
-    def moved(self, mesh: Any, progress: Progress) -> tuple[Any, str]:
+    def made(self, mesh: Any, progress: Progress) -> tuple[Any, str]:
         result = batten().denoise(
             mesh,
             passes=None if self.automatic else self.passes,
@@ -235,7 +246,7 @@ class Sharpen(PointsOperator):
 
     amount: FloatProperty(name="Amount", default=1.0, min=0.0, soft_max=3.0)
 
-    def moved(self, mesh: Any, progress: Progress) -> tuple[Any, str]:
+    def made(self, mesh: Any, progress: Progress) -> tuple[Any, str]:
         result = batten().sharpen(mesh, amount=self.amount, scheme="catmull-clark", progress=progress)
         return result.mesh, f"Vertices moved by {result.report.moved:.3g}"
 
@@ -251,36 +262,14 @@ class Bands(PointsOperator):
     coarse: FloatProperty(name="Coarse", default=1.0, min=0.0, soft_max=3.0)
     shape: FloatProperty(name="Shape", default=1.0, min=0.0, soft_max=3.0)
 
-    def moved(self, mesh: Any, progress: Progress) -> tuple[Any, str]:
+    def made(self, mesh: Any, progress: Progress) -> tuple[Any, str]:
         gains = [self.fine, self.middle, self.coarse, self.shape]
         result = batten().bands(mesh, gains, scheme="catmull-clark", progress=progress)
         moved = float(np.sqrt(np.mean(np.sum((result.mesh.points - mesh.points) ** 2, axis=1))))
         return result.mesh, f"Vertices moved by {moved:.3g}"
 
 
-class RemeshOperator(BattenOperator):
-    """Operators that replace each selected mesh."""
-
-    def prepare(self, context: bpy.types.Context) -> list[Job]:
-        self._things = selected_meshes(context)
-        jobs: list[Job] = []
-        for thing in self._things:
-            exchange.require_editable(thing)
-            mesh = exchange.mesh_of(thing.data)
-            jobs.append(lambda progress, mesh=mesh: self.made(mesh, progress))
-        return jobs
-
-    def made(self, mesh: Any, progress: Progress) -> tuple[Any, str]:
-        """The new mesh, and what to say."""
-        raise NotImplementedError
-
-    def apply(self, context: bpy.types.Context, results: list[Any]) -> str:
-        for thing, (mesh, _) in zip(self._things, results):
-            exchange.replace_mesh(thing.data, mesh)
-        return results[-1][1]
-
-
-class ModifiedButterfly(RemeshOperator):
+class ModifiedButterfly(MeshesOperator):
     """Refine triangles by the Modified Butterfly scheme: smooth, and every vertex stays where it is"""
 
     bl_idname = "mesh.batten_butterfly"
@@ -294,7 +283,7 @@ class ModifiedButterfly(RemeshOperator):
         return fine, f"{fine.vertex_count:,} vertices; the first {mesh.vertex_count:,} stay where they were"
 
 
-class Repair(RemeshOperator):
+class Repair(MeshesOperator):
     """Repair a mesh that has no surface, and list what was changed"""
 
     bl_idname = "mesh.batten_repair"

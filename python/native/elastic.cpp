@@ -49,6 +49,15 @@ ElasticSurface make_body(const Topology& topology, const Scheme& scheme, const D
   return run(progress, [&](const Progress& report) { return ElasticSurface(topology, scheme, rows, options, report); });
 }
 
+Eigen::Map<const Values> targets_of(const std::vector<SurfacePlace>& places, const Doubles& targets) {
+  const Eigen::Map<const Values> to = points_of(targets, "targets");
+  if (to.rows() != static_cast<Eigen::Index>(places.size())) {
+    throw Error(ErrorCode::BadShape, "there are " + std::to_string(to.rows()) + " targets for " +
+                                         std::to_string(places.size()) + " places; give one each");
+  }
+  return to;
+}
+
 /// Forces and supports of a motion, gathered one by one.
 struct Loads {
   explicit Loads(const ElasticSurface& body_in) : body(body_in) {}
@@ -58,10 +67,7 @@ struct Loads {
 
   void add_springs(const Indices& faces, const Doubles& uv, const Doubles& targets, double stiffness) {
     const std::vector<SurfacePlace> places = places_of(faces, uv);
-    const Eigen::Map<const Values> to = points_of(targets, "targets");
-    if (to.rows() != static_cast<Eigen::Index>(places.size())) {
-      throw Error(ErrorCode::BadShape, "there must be a target for each place");
-    }
+    const Eigen::Map<const Values> to = targets_of(places, targets);
     std::vector<PointSprings::Spring> springs;
     for (std::size_t i = 0; i < places.size(); ++i) {
       springs.push_back({places[i], stay_at(to.row(static_cast<Eigen::Index>(i)).transpose()), stiffness});
@@ -100,10 +106,7 @@ struct Loads {
   }
   void pin(const Indices& faces, const Doubles& uv, const Doubles& targets) {
     const std::vector<SurfacePlace> places = places_of(faces, uv);
-    const Eigen::Map<const Values> to = points_of(targets, "targets");
-    if (to.rows() != static_cast<Eigen::Index>(places.size())) {
-      throw Error(ErrorCode::BadShape, "there must be a target for each place");
-    }
+    const Eigen::Map<const Values> to = targets_of(places, targets);
     for (std::size_t i = 0; i < places.size(); ++i) {
       supports.pins.push_back({places[i], stay_at(to.row(static_cast<Eigen::Index>(i)).transpose())});
     }
