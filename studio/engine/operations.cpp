@@ -6,6 +6,7 @@
 #include "batten/fit/fit_surface.h"
 #include "batten/fit/mesh_samples.h"
 #include "batten/interpolate/method_comparison.h"
+#include "batten/mesh/moved_mesh.h"
 #include "batten/mesh/topology.h"
 
 namespace batten::studio {
@@ -16,16 +17,6 @@ Scheme scheme_of(const val& wishes) {
   scheme.kind = static_cast<SchemeKind>(wishes["scheme"].as<int>());
   scheme.boundary = static_cast<BoundaryRule>(wishes["boundary"].as<int>());
   return scheme;
-}
-
-/// The points of a file, with its normals where it has them.
-PointCloud cloud_of(const Mesh& mesh) {
-  PointCloud cloud;
-  cloud.points = mesh.points;
-  for (const Attribute& attribute : mesh.attributes)
-    if (attribute.name == "normal" && !attribute.per_corner() && attribute.values.rows() == mesh.points.rows())
-      cloud.normals = attribute.values.leftCols(3);
-  return cloud;
 }
 
 }  // namespace
@@ -60,8 +51,7 @@ val banded_points(const std::shared_ptr<MeshFile>& file, const val& wishes, cons
 val morphed_points(const std::shared_ptr<MeshFile>& from, const std::shared_ptr<MeshFile>& to, const val& wishes,
                    double t) {
   return guarded([&] {
-    if (from->mesh().face_vertices != to->mesh().face_vertices || from->mesh().face_offsets != to->mesh().face_offsets)
-      throw Error(ErrorCode::BadShape, "the two meshes have different faces: a morph needs the same faces in both");
+    require_same_connectivity(from->mesh(), to->mesh());
     const MeshSeries series(Topology(from->mesh()), scheme_of(wishes));
     const Morph morph(series, from->mesh().points, to->mesh().points);
     val result = val::object();
@@ -93,7 +83,7 @@ val fitted(const std::shared_ptr<MeshFile>& points, int vertices, double toleran
     FitOptions options;
     options.vertices = vertices;
     options.tolerance = tolerance;
-    FitResult fit = fit_surface(cloud_of(points->mesh()), options, progress_of(report));
+    FitResult fit = fit_surface(cloud_of_mesh(points->mesh(), vertices), options, progress_of(report));
     val result = val::object();
     result.set("rms", fit.report.to_surface.rms);
     result.set("max", fit.report.to_surface.max);
