@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "batten/expand/volume.h"
+#include "batten/mesh/component_volumes.h"
 #include "batten/mesh/measures.h"
 #include "cli/text.h"
 

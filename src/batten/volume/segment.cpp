@@ -12,16 +12,16 @@
 #include "batten/fit/surface_fitter.h"
 #include "batten/mesh/self_intersections.h"
 #include "batten/refine/refinement.h"
-#include "batten/tessellate/surface_mesh.h"
 #include "batten/volume/edge_search.h"
 #include "batten/volume/label_mask.h"
+#include "batten/volume/segment_measures.h"
 
 namespace batten {
 
 namespace {
 
 /// The surface is searched for places where it meets itself as a mesh of so many faces or more.
-constexpr Index kSearchedFaces = 20000;
+constexpr std::int64_t kSearchedFaces = 20000;
 
 double rms_of(const Scalars& distances) {
   return std::sqrt(distances.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, distances.size())));
@@ -31,10 +31,7 @@ double rms_of(const Scalars& distances) {
 std::int64_t meetings_of(const SurfaceFitter& fitter) {
   Mesh control = mesh_from_topology(fitter.topology());
   control.points = fitter.control();
-  int levels = 1;
-  for (std::int64_t faces = 4 * std::int64_t{fitter.topology().face_count()}; faces < kSearchedFaces; faces *= 4)
-    ++levels;
-  const Mesh fine = surface_mesh(fitter.topology(), fitter.scheme(), control, levels);
+  const Mesh fine = surface_of_faces(fitter.topology(), fitter.scheme(), control, kSearchedFaces);
   return find_self_intersections(Topology(fine), fine.points).count;
 }
 
@@ -57,7 +54,8 @@ class GuardedSteps {
     constexpr double kMostEven = 3e-2;
     step.evenness = std::max(step.fairness, std::min(kMostEven, kEvenness * step.fairness));
     const Values before = fitter_.control();
-    fitter_.move_to(fitter_.stepped(before, fitter_.find_step(step)));
+    // The fitter looks for folds alone: whether the surface meets itself is looked at more closely here.
+    fitter_.move_to(fitter_.stepped(before, fitter_.find_step(step), Soundness::Unfolded));
     const std::int64_t after = meetings_of(fitter_);
     const bool cut = after > 0 && after >= meetings_;
     if (cut) fitter_.move_to(before);

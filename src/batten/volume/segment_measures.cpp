@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "batten/fit/point_tree.h"
+#include "batten/mesh/component_volumes.h"
 #include "batten/mesh/measures.h"
 #include "batten/mesh/self_intersections.h"
 #include "batten/mesh/triangulate.h"
@@ -17,21 +18,19 @@
 
 namespace batten {
 
-SurfaceMeasures measure_surface(const Topology& topology, const Scheme& scheme, const Mesh& control) {
-  constexpr Index kFaces = 60000;
+Mesh surface_of_faces(const Topology& topology, const Scheme& scheme, const Mesh& control, std::int64_t least) {
   int levels = 1;
-  for (std::int64_t faces = 4 * std::int64_t{topology.face_count()}; faces < kFaces; faces *= 4) ++levels;
+  for (std::int64_t faces = 4 * std::int64_t{topology.face_count()}; faces < least; faces *= 4) ++levels;
+  return surface_mesh(topology, scheme, control, levels);
+}
+
+SurfaceMeasures measure_surface(const Topology& topology, const Scheme& scheme, const Mesh& control) {
+  constexpr std::int64_t kFaces = 60000;
   SurfaceMeasures measures;
-  measures.fine = triangulated(surface_mesh(topology, scheme, control, levels));
+  measures.fine = triangulated(surface_of_faces(topology, scheme, control, kFaces));
   const Topology fine(measures.fine);
   measures.area = surface_area(fine, measures.fine.points);
-  const Eigen::RowVector3d middle = measures.fine.points.colwise().mean();
-  const auto& corners = measures.fine.face_vertices;
-  for (std::size_t c = 0; c < corners.size(); c += 3) {
-    Eigen::Matrix3d triangle;
-    for (int r = 0; r < 3; ++r) triangle.row(r) = measures.fine.points.row(corners[c + r]) - middle;
-    measures.volume += triangle.determinant() / 6.0;
-  }
+  measures.volume = component_volumes(fine, measures.fine.points).sum();
   measures.self_intersections = find_self_intersections(fine, measures.fine.points).count;
   return measures;
 }

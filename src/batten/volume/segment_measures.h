@@ -17,6 +17,9 @@ struct SurfaceMeasures {
   std::int64_t self_intersections = 0;  ///< pairs of triangles of the fine mesh
 };
 
+/// The limit surface as a mesh, refined once or more, until it has so many faces. Throws what surface_mesh() throws.
+Mesh surface_of_faces(const Topology& topology, const Scheme& scheme, const Mesh& control, std::int64_t least);
+
 /// control: the mesh of the topology. Refines so far that the volume is exact to about 1e-5. Throws what surface_mesh()
 /// throws.
 SurfaceMeasures measure_surface(const Topology& topology, const Scheme& scheme, const Mesh& control);
