@@ -6,28 +6,48 @@ import { EngineError } from './types';
 
 const CANCELLED = 18;
 
+/** An engine somewhere else. */
+export interface Started {
+  readonly remote: Comlink.Remote<Engine>;
+  end(): void;
+}
+export type Start = (stopFlag: Int32Array | null, progress: (done: number) => void) => Promise<Started>;
+
+async function startWorker(stopFlag: Int32Array | null, progress: (done: number) => void): Promise<Started> {
+  const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module' });
+  const host = Comlink.wrap<Host>(worker);
+  const engine = await host.start(stopFlag, Comlink.proxy(progress)).catch((error: unknown) => {
+    worker.terminate();
+    throw error;
+  });
+  return { remote: engine as unknown as Comlink.Remote<Engine>, end: () => worker.terminate() };
+}
+
 export class EngineClient {
-  private worker: Worker | null = null;
-  private remote: Comlink.Remote<Engine> | null = null;
+  /** One engine, also for those who ask while it starts: each holds its own files. */
+  private engine: Promise<Started> | null = null;
   private stopFlag: Int32Array | null = null;
   private rejectRunning: ((reason: Error) => void) | null = null;
   onProgress: (done: number) => void = () => undefined;
   /** Called after a restart: the engine holds nothing any more. */
   onRestart: () => void = () => undefined;
 
-  private async start(): Promise<Comlink.Remote<Engine>> {
-    this.worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module' });
+  constructor(private readonly startEngine: Start = startWorker) {}
+
+  private start(): Promise<Started> {
     this.stopFlag = globalThis.crossOriginIsolated ? new Int32Array(new SharedArrayBuffer(4)) : null;
-    const host = Comlink.wrap<Host>(this.worker);
-    const engine = await host.start(this.stopFlag, Comlink.proxy((done: number) => this.onProgress(done)));
-    return engine as unknown as Comlink.Remote<Engine>;
+    return this.startEngine(this.stopFlag, (done) => this.onProgress(done));
   }
 
   /** Runs `work` on the engine. Errors of the library are thrown as EngineError. */
   async run<T>(work: (engine: Comlink.Remote<Engine>) => Promise<T>): Promise<T> {
-    this.remote ??= await this.start();
+    const engine = (this.engine ??= this.start());
+    const { remote } = await engine.catch((error: unknown) => {
+      if (this.engine === engine) this.engine = null; // the next run tries again
+      throw asEngineError(error);
+    });
+    if (this.engine !== engine) return this.run(work); // ended while it started: it would never answer
     if (this.stopFlag) Atomics.store(this.stopFlag, 0, 0);
-    const remote = this.remote;
     try {
       return await new Promise<T>((resolve, reject) => {
         this.rejectRunning = reject;
@@ -51,9 +71,8 @@ export class EngineClient {
 
   /** Ends the Worker, whatever it does. The next run starts another. */
   restart(reason: string): void {
-    this.worker?.terminate();
-    this.worker = null;
-    this.remote = null;
+    void this.engine?.then((started) => started.end(), () => undefined);
+    this.engine = null;
     this.rejectRunning?.(new EngineError(reason, CANCELLED));
     this.onRestart();
   }
