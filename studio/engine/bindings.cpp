@@ -18,12 +18,14 @@ EMSCRIPTEN_BINDINGS(batten) {
       .function("setPoints", &MeshFile::set_points)
       .function("setTags", &MeshFile::set_tags)
       .function("repaired", &MeshFile::repaired)
-      .function("write", &MeshFile::write);
+      .function("write", &MeshFile::write)
+      .function("writeNormals", &MeshFile::write_normals);
   class_<Surface>("Surface")
       .smart_ptr<std::shared_ptr<Surface>>("SurfacePointer")
       .function("report", &Surface::report)
       .function("drawing", &Surface::drawing)
       .function("shape", &Surface::shape)
+      .function("change", &Surface::change)
       .function("move", &Surface::move)
       .function("setControl", &Surface::set_control)
       .function("limitPoints", &Surface::limit_points)
@@ -39,12 +41,16 @@ EMSCRIPTEN_BINDINGS(batten) {
       .function("release", &Elastic::release)
       .function("step", &Elastic::step)
       .function("control", &Elastic::control);
+  class_<ShapeMorph>("ShapeMorph")
+      .smart_ptr<std::shared_ptr<ShapeMorph>>("ShapeMorphPointer")
+      .function("at", &ShapeMorph::at)
+      .function("film", &ShapeMorph::film);
   function("readMesh", &read_mesh_file);
   function("makeSurface", &make_surface);
   function("makeElastic", &make_elastic);
   function("denoisedPoints", &denoised_points);
   function("bandedPoints", &banded_points);
-  function("morphedPoints", &morphed_points);
+  function("makeMorph", &make_morph);
   function("comparedMethods", &compared_methods);
   function("fitted", &fitted);
 }

@@ -7,7 +7,6 @@
 #include "batten/mesh/check.h"
 #include "batten/mesh/repair.h"
 #include "batten/mesh/topology.h"
-#include "batten/mesh/up_axis.h"
 #include "batten/refine/refinement.h"
 #include "batten/tessellate/surface_mesh.h"
 
@@ -41,7 +40,7 @@ val MeshFile::contents() const {
   result.set("corners", typed_array(flat_corners(mesh_)));
   result.set("notes", list(notes_, [](const std::string& note) { return val(note); }));
   result.set("diagonal", bounding_diagonal(mesh_.points));
-  result.set("up", static_cast<int>(guess_up_axis(mesh_, UpAxis::Z)));
+  result.set("up", static_cast<int>(up_));
   result.set("triangles", all_triangles(mesh_));
   result.set("scheme", static_cast<int>(choose_scheme(mesh_).kind));
   return result;
@@ -89,7 +88,7 @@ val MeshFile::repaired(double weld) const {
     RepairResult repaired = repair(mesh_, options);
     val result = val::object();
     result.set("changes", list(repaired.changes, [](const RepairChange& change) { return val(change.text); }));
-    result.set("mesh", std::make_shared<MeshFile>(std::move(repaired.mesh)));
+    result.set("mesh", std::make_shared<MeshFile>(std::move(repaired.mesh), up_));
     return result;
   });
 }
@@ -102,10 +101,34 @@ val MeshFile::write(const std::string& path, int levels) const {
       refined = surface_mesh(topology, choose_scheme(mesh_), mesh_, levels);
     }
     const Mesh& written = levels >= 0 ? refined : mesh_;
-    write_mesh(path, written);
+    WriteOptions options;
+    options.up = up_;
+    write_mesh(path, written, options);
     val result = val::object();
     result.set("losses", list(find_losses(path, written), [](const std::string& loss) { return val(loss); }));
     return result;
+  });
+}
+
+Values wanted_normals_of(const val& numbers, Index vertices) {
+  const auto flat = emscripten::convertJSArrayToNumberVector<double>(numbers);
+  if (flat.empty()) return {};
+  Values normals = Values::Zero(vertices, 3);
+  for (std::size_t i = 0; i + 4 <= flat.size(); i += 4) {
+    const double vertex = flat[i];
+    if (!(vertex >= 0.0 && vertex < vertices)) throw Error(ErrorCode::IndexOutOfRange, "there is no such point");
+    normals.row(static_cast<Index>(vertex)) << flat[i + 1], flat[i + 2], flat[i + 3];
+  }
+  return normals;
+}
+
+val MeshFile::write_normals(const std::string& path, const val& normals) const {
+  return guarded([&] {
+    Mesh mesh = mesh_;
+    std::erase_if(mesh.attributes, [](const Attribute& attribute) { return attribute.name == "normal"; });
+    mesh.attributes.push_back({"normal", wanted_normals_of(normals, mesh.vertex_count()), {}});
+    write_mesh(path, mesh);
+    return val::null();
   });
 }
 
@@ -113,7 +136,8 @@ val read_mesh_file(const std::string& path, const val& report) {
   return guarded([&] {
     std::vector<std::string> notes;
     Mesh mesh = read_mesh(path, "", progress_of(report), &notes);
-    return val(std::make_shared<MeshFile>(std::move(mesh), std::move(notes)));
+    const UpAxis up = find_up_axis(mesh, file_format(path));
+    return val(std::make_shared<MeshFile>(std::move(mesh), up, std::move(notes)));
   });
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "batten/mesh/mesh.h"
+#include "batten/mesh/up_axis.h"
 #include "studio/engine/arrays.h"
 
 namespace batten::studio {
@@ -12,10 +13,12 @@ namespace batten::studio {
 /// Keeps all that a file holds, of which the page sees points, faces and tags.
 class MeshFile {
  public:
-  explicit MeshFile(Mesh mesh, std::vector<std::string> notes = {})
-      : mesh_(std::move(mesh)), notes_(std::move(notes)) {}
+  /// up: of the file that the mesh came from (find_up_axis()).
+  MeshFile(Mesh mesh, UpAxis up, std::vector<std::string> notes = {})
+      : mesh_(std::move(mesh)), up_(up), notes_(std::move(notes)) {}
 
   const Mesh& mesh() const { return mesh_; }
+  UpAxis up() const { return up_; }
 
   /// {points, faceOffsets, faceVertices, creases (a, b, sharpness each), corners (vertex, sharpness each), notes,
   /// diagonal, up, triangles, scheme}.
@@ -29,11 +32,17 @@ class MeshFile {
   val repaired(double weld) const;
   /// Writes a file of the engine's own file system. {losses: [words]}.
   val write(const std::string& path, int levels) const;
+  /// The same for the mesh as it is with normals (wanted_normals_of()) at its vertices, zeros where none is wanted.
+  val write_normals(const std::string& path, const val& normals) const;
 
  private:
   Mesh mesh_;
+  UpAxis up_;
   std::vector<std::string> notes_;
 };
+
+/// numbers: four each, a vertex and the direction wanted there. A row a vertex, or no rows where there is none.
+Values wanted_normals_of(const val& numbers, Index vertices);
 
 /// Reads a file of the engine's own file system: a MeshFile.
 val read_mesh_file(const std::string& path, const val& report);

@@ -1,13 +1,18 @@
 #include "studio/engine/operations.h"
 
+#include <algorithm>
+
 #include "batten/expand/bands.h"
 #include "batten/expand/denoise.h"
-#include "batten/expand/morph.h"
+#include "batten/expand/morph_surface.h"
 #include "batten/fit/fit_surface.h"
 #include "batten/fit/mesh_samples.h"
 #include "batten/interpolate/method_comparison.h"
+#include "batten/io/animation.h"
 #include "batten/mesh/moved_mesh.h"
 #include "batten/mesh/topology.h"
+#include "batten/progress.h"
+#include "batten/tessellate/surface_mesh.h"
 
 namespace batten::studio {
 namespace {
@@ -48,16 +53,34 @@ val banded_points(const std::shared_ptr<MeshFile>& file, const val& wishes, cons
   });
 }
 
-val morphed_points(const std::shared_ptr<MeshFile>& from, const std::shared_ptr<MeshFile>& to, const val& wishes,
-                   double t) {
+ShapeMorph::ShapeMorph(const MeshFile& from, const Mesh& to, const Scheme& scheme)
+    : from_(from.mesh()),
+      up_(from.up()),
+      topology_(from_),
+      scheme_(scheme),
+      morph_(MeshSeries(topology_, scheme_), from_.points, (require_same_connectivity(from_, to), to.points)) {}
+
+val ShapeMorph::at(double t) const {
+  return guarded([&] { return typed_array(morph_.at(t)); });
+}
+
+val ShapeMorph::film(const std::string& path, double seconds, const val& report) const {
   return guarded([&] {
-    require_same_connectivity(from->mesh(), to->mesh());
-    const MeshSeries series(Topology(from->mesh()), scheme_of(wishes));
-    const Morph morph(series, from->mesh().points, to->mesh().points);
-    val result = val::object();
-    result.set("points", typed_array(morph.at(t)));
-    return result;
+    constexpr double kRefined = 0.7;
+    constexpr int kFrames = 24;  // as the tool
+    const Progress progress = progress_of(report);
+    const MovingSurface surface =
+        morph_surface(topology_, scheme_, from_, morph_, std::min(3, picture_levels(topology_)), kFrames, seconds,
+                      progress_within(progress, 0.0, kRefined));
+    WriteOptions options;
+    options.up = up_;
+    write_animation(path, surface.mesh, surface.targets, options, progress_within(progress, kRefined, 1.0));
+    return val::null();
   });
+}
+
+val make_morph(const std::shared_ptr<MeshFile>& from, const std::shared_ptr<MeshFile>& to, const val& wishes) {
+  return guarded([&] { return val(std::make_shared<ShapeMorph>(*from, to->mesh(), scheme_of(wishes))); });
 }
 
 val compared_methods(const std::shared_ptr<MeshFile>& file, const val& wishes, const val& report) {
@@ -95,7 +118,7 @@ val fitted(const std::shared_ptr<MeshFile>& points, int vertices, double toleran
                  one.set("max", round.max);
                  return one;
                }));
-    result.set("mesh", std::make_shared<MeshFile>(std::move(fit.mesh)));
+    result.set("mesh", std::make_shared<MeshFile>(std::move(fit.mesh), points->up()));
     return result;
   });
 }

@@ -1,8 +1,10 @@
 #include "studio/engine/surface.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "batten/interpolate/fair_mesh.h"
+#include "batten/interpolate/local_normals.h"
 #include "batten/mesh/vertex_fields.h"
 
 namespace batten::studio {
@@ -31,6 +33,17 @@ std::vector<std::uint32_t> triangles_of(const Tessellator& tessellator) {
   return triangles;
 }
 
+/// Of rows of three numbers, those of some vertices.
+std::vector<float> rows_of(const std::vector<float>& numbers, const std::vector<Index>& vertices) {
+  std::vector<float> rows;
+  rows.reserve(3 * vertices.size());
+  for (const Index vertex : vertices) {
+    const auto begin = numbers.begin() + 3 * static_cast<std::ptrdiff_t>(vertex);
+    rows.insert(rows.end(), begin, begin + 3);
+  }
+  return rows;
+}
+
 }  // namespace
 
 Surface::Surface(std::shared_ptr<const MeshFile> file, const SurfaceWishes& wishes, const Progress& progress)
@@ -47,6 +60,8 @@ Surface::Surface(std::shared_ptr<const MeshFile> file, const SurfaceWishes& wish
 }
 
 void Surface::solve(const Progress& progress) {
+  moved_.reset();
+  worst_angle_.reset();
   if (!wishes_.interpolated || is_interpolating(scheme_.kind)) {
     control_ = targets_;
     return;
@@ -61,12 +76,23 @@ void Surface::solve(const Progress& progress) {
   scheme_ = result.scheme;
   control_ = std::move(result.control);
   solved_ = std::move(result.report);
+  if (!has_normals()) return;
+  TurnedSurface turned = turn_normals(topology_, scheme_, control_, wishes_.normals, {}, progress);
+  topology_ = turned.topology;
+  scheme_ = turned.scheme;
+  control_ = std::move(turned.control);
+  worst_angle_ = turned.report.after_angle.max;
+}
+
+FairOptions Surface::fair_options() const {
+  FairOptions options;
+  options.smoothing = wishes_.smoothing;
+  options.normals = wishes_.normals;
+  return options;
 }
 
 void Surface::solve_fairly(const Progress& progress) {
-  FairOptions options;
-  options.smoothing = wishes_.smoothing;
-  FairInterpolant result = interpolate_fairly(given_, wishes_.scheme, targets_, options, progress);
+  FairInterpolant result = interpolate_fairly(given_, wishes_.scheme, targets_, fair_options(), progress);
   topology_ = result.topology;
   scheme_ = result.scheme;
   control_ = std::move(result.control);
@@ -76,6 +102,7 @@ void Surface::solve_fairly(const Progress& progress) {
   solved_->max_error = result.report.max_error;
   solved_->rms_error = result.report.rms_error;
   solved_->worst.push_back({result.report.worst_vertex, result.report.max_error});
+  if (has_normals()) worst_angle_ = result.report.max_angle;
 }
 
 void Surface::prepare() {
@@ -88,6 +115,7 @@ void Surface::prepare() {
   tessellator_.emplace(*patches_, levels_);
   limit_.reset();
   nearest_.reset();
+  moved_.reset();
   points_.resize(3 * static_cast<std::size_t>(tessellator_->vertex_count()));
   normals_.resize(points_.size());
 }
@@ -110,6 +138,7 @@ val Surface::report() const {
   result.set("seconds", solved_->solve.seconds);
   result.set("residuals", typed_array(solved_->solve.residual_history));
   result.set("measuredAfter", typed_array(solved_->solve.measured_after));
+  if (worst_angle_) result.set("worstAngle", *worst_angle_);
   result.set("singular", static_cast<double>(solved_->singular.size()));
   return result;
 }
@@ -137,10 +166,29 @@ val Surface::shape() {
   return guarded([&] {
     prepare();
     tessellator_->limit<float>(control_, points_, normals_);
+    moved_.emplace();
     val result = val::object();
     result.set("points", typed_array(points_));
     result.set("normals", typed_array(normals_));
     result.set("control", typed_array(to_floats(control_)));
+    return result;
+  });
+}
+
+val Surface::change() {
+  return guarded([&] {
+    prepare();
+    if (!moved_) return shape();
+    std::vector<Index> moved = std::exchange(*moved_, {});
+    std::sort(moved.begin(), moved.end());
+    moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
+    const std::vector<Index> vertices = tessellator_->limit_around<float>(moved, control_, points_, normals_);
+    val result = val::object();
+    result.set("vertices", typed_array(vertices));
+    result.set("points", typed_array(rows_of(points_, vertices)));
+    result.set("normals", typed_array(rows_of(normals_, vertices)));
+    result.set("moved", typed_array(moved));
+    result.set("control", typed_array(to_floats(control_(moved, Eigen::all))));
     return result;
   });
 }
@@ -151,8 +199,10 @@ void Surface::take(const InterpolationUpdates& updates) {
   if (control_.rows() != updates.control().rows() ||
       updates.moved().size() > static_cast<std::size_t>(control_.rows()) / 8) {
     control_ = updates.control();
+    moved_.reset();
     return;
   }
+  if (moved_) moved_->insert(moved_->end(), updates.moved().begin(), updates.moved().end());
   for (const Index vertex : updates.moved()) control_.row(vertex) = updates.control().row(vertex);
 }
 
@@ -162,7 +212,7 @@ val Surface::move(int vertex, double x, double y, double z, int rings) {
     const Eigen::RowVector3d target(x, y, z);
     val result = val::object();
     is_current_ = false;
-    if (!interpolator_) {
+    if (!interpolator_ || has_normals()) {
       targets_.row(vertex) = target;
       solve({});
       return result;
@@ -170,6 +220,7 @@ val Surface::move(int vertex, double x, double y, double z, int rings) {
     if (!updates_) {
       updates_.emplace(*interpolator_, targets_);
       control_ = updates_->control();
+      moved_.reset();
     }
     const Index rows[] = {static_cast<Index>(vertex)};
     const UpdateReport report =
@@ -196,6 +247,7 @@ val Surface::set_control(const val& points) {
       throw Error(ErrorCode::BadShape, "a point for each control vertex is needed");
     control_ = control;
     is_current_ = false;
+    moved_.reset();
     return val::null();
   });
 }
@@ -210,18 +262,21 @@ val Surface::limit_points() const {
 Mesh Surface::control_mesh() const {
   Mesh mesh = file_->mesh();
   mesh.points = targets_;
-  if (interpolator_) return interpolate(*interpolator_, std::move(mesh)).mesh;
+  if (interpolator_) {
+    InterpolatedMesh surface = interpolate(*interpolator_, std::move(mesh));
+    if (has_normals()) turn_normals(surface, wishes_.normals);
+    return std::move(surface.mesh);
+  }
   if (wishes_.fair && wishes_.interpolated && !is_interpolating(wishes_.scheme.kind)) {
-    FairOptions options;
-    options.smoothing = wishes_.smoothing;
-    return interpolate_fairly(given_, wishes_.scheme, std::move(mesh), AttributeRule::Interpolated, options).mesh;
+    return interpolate_fairly(given_, wishes_.scheme, std::move(mesh), AttributeRule::Interpolated, fair_options())
+        .mesh;
   }
   state_scheme(wishes_.scheme, mesh);
   return mesh;
 }
 
 val Surface::control_file() const {
-  return guarded([&] { return val(std::make_shared<MeshFile>(control_mesh())); });
+  return guarded([&] { return val(std::make_shared<MeshFile>(control_mesh(), file_->up())); });
 }
 
 val make_surface(const std::shared_ptr<MeshFile>& file, const val& wishes, const val& report) {
@@ -234,6 +289,7 @@ val make_surface(const std::shared_ptr<MeshFile>& file, const val& wishes, const
     asked.fair = wishes["fair"].as<bool>();
     asked.smoothing = wishes["smoothing"].as<double>();
     asked.levels = wishes["levels"].as<int>();
+    asked.normals = wanted_normals_of(wishes["normals"], file->mesh().vertex_count());
     return val(std::make_shared<Surface>(file, asked, progress_of(report)));
   });
 }

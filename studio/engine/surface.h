@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "batten/interpolate/fair_interpolation.h"
 #include "batten/interpolate/interpolated_mesh.h"
 #include "batten/interpolate/interpolation_updates.h"
 #include "batten/nearest/nearest_point.h"
@@ -19,6 +20,7 @@ struct SurfaceWishes {
   bool fair = false;         ///< the fairest of those (interpolate/fair_interpolation.h)
   double smoothing = 0.0;    ///< FairOptions::smoothing
   int levels = 0;            ///< of the mesh that is drawn; 0: as suits the screen
+  Values normals = {};       ///< wanted ones (interpolate/wanted_normals.h), or no rows; for interpolated surfaces
 };
 
 /// One surface of a mesh file. Values at vertices follow Tessellator's order.
@@ -33,6 +35,10 @@ class Surface {
   val drawing();
   /// {points, normals, control} where the connectivity is that of the last drawing().
   val shape();
+  /// What moves changed since the last shape(), drawing() or change(): {vertices, points, normals, moved, control},
+  /// where `points` and `normals` are those of the drawn `vertices` and `control` are the control points `moved`; or
+  /// shape(), where much changed.
+  val change();
   /// Moves point `vertex`; the surface follows. {moved, local, maxError}.
   val move(int vertex, double x, double y, double z, int rings);
   /// Other control points for the same connectivity, as sculpting makes them.
@@ -61,6 +67,8 @@ class Surface {
   void take(const InterpolationUpdates& updates);
   void prepare();
   Mesh control_mesh() const;
+  bool has_normals() const { return wishes_.interpolated && wishes_.normals.rows() > 0; }
+  FairOptions fair_options() const;
 
   std::shared_ptr<const MeshFile> file_;
   SurfaceWishes wishes_;
@@ -72,18 +80,21 @@ class Surface {
   std::optional<Interpolator> interpolator_;
   std::optional<InterpolationUpdates> updates_;
   std::optional<InterpolationReport> solved_;
+  std::optional<double> worst_angle_;  ///< between normals wanted and reached, in radians
   std::string note_;
   int levels_ = 1;
   std::optional<Tessellator> tessellator_;
   std::optional<SurfacePatches> patches_;
   std::optional<LimitSurface> limit_;
   std::optional<NearestPoints> nearest_;
-  bool is_current_ = false;  ///< limit_ and nearest_ are those of control_
+  bool is_current_ = false;                  ///< limit_ and nearest_ are those of control_
+  std::optional<std::vector<Index>> moved_;  ///< control vertices that points_ do not follow yet; nothing: all
   std::vector<float> points_;
   std::vector<float> normals_;
 };
 
-/// wishes: {scheme, boundary, alpha, interpolate, fair, smoothing, levels}.
+/// wishes: {scheme, boundary, alpha, interpolate, fair, smoothing, levels, normals}; normals: four numbers each, a
+/// vertex and the direction wanted there.
 val make_surface(const std::shared_ptr<MeshFile>& file, const val& wishes, const val& report);
 
 }  // namespace batten::studio

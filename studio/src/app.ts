@@ -5,7 +5,7 @@ import { PRESETS, SCHEMES } from './engine/types';
 import type { Kept } from './state/store';
 import { Store } from './state/store';
 import type { Settings, Source, Work } from './state/work';
-import { faceCount, isCloud, PLAIN, vertexCount, wishesOf, workOf } from './state/work';
+import { faceCount, isCloud, PLAIN, vertexCount, wantedNormals, wishesOf, withNormal, workOf } from './state/work';
 import type { Stage } from './view/stage';
 import { counted, short } from './ui/text';
 import { wireframe } from './view/wireframe';
@@ -21,6 +21,10 @@ export interface Face {
 }
 
 const SLOW_MS = 400;
+/** The length of a normal's arrow, as a share of the diagonal. */
+const ARROW = 0.12;
+/** Of larger meshes the surface follows a normal when the hand lets go. */
+const MOST_TO_TURN = 5000;
 
 /** The vertex that a message of the library names, or one of the face that it names. */
 function placeIn(message: string, work: Work): number | null {
@@ -28,6 +32,12 @@ function placeIn(message: string, work: Work): number | null {
   if (vertex) return Number(vertex[1]);
   const face = /face (\d+)/.exec(message);
   return face ? (work.faceVertices[work.faceOffsets[Number(face[1])] ?? 0] ?? null) : null;
+}
+
+function placeOf(work: Work, vertex: number): Vec3 | null {
+  if (vertex >= vertexCount(work)) return null;
+  const [x = 0, y = 0, z = 0] = work.points.subarray(3 * vertex, 3 * vertex + 3);
+  return [x, y, z];
 }
 
 /** Vertex i of the picture belongs to point i. */
@@ -56,6 +66,7 @@ export class App {
   private inEngine: Work | null = null;
   private shown: Work | null = null;
   private framed: Source | null = null;
+  private turning: Vec3 | null = null;
   private queue: Promise<unknown> = Promise.resolve();
   private dragging: { vertex: number; wanted: Vec3 | null; to: Vec3; running: Promise<void> } | null = null;
 
@@ -158,6 +169,7 @@ export class App {
       this.stage.clearSurface();
       this.stage.cloud.clear();
       this.stage.drawPoints(new Float64Array());
+      this.stage.arrows.draw([], 1);
       this.shown = null;
       this.report = null;
       this.face.showScale(null);
@@ -169,6 +181,7 @@ export class App {
       this.framed = work.source;
     }
     this.stage.drawPoints(work.points);
+    this.drawArrows(work);
     this.stage.points.pick(this.picked);
     this.stage.cloud.clear();
     this.problem = '';
@@ -225,20 +238,47 @@ export class App {
       const how = report.scheme.includes('Butterfly') ? `${report.scheme}, which passes through the points` : `${report.scheme} surface of this control mesh`;
       return `${work.source.name}: ${size}. ${how}.`;
     }
-    const refined = report.isRefined ? ` Refined once: ${counted(report.vertices, 'control point', 'control points')}.` : '';
-    return `${work.source.name}: ${size}. Interpolated: max error ${short(report.maxError)}, ${counted(report.iterations ?? 0, 'iteration', 'iterations')}.${refined}`;
+    const normals = report.worstAngle === undefined ? '' : ` Normals within ${short((180 / Math.PI) * report.worstAngle)} degrees.`;
+    const refined = report.isRefined ? ` Refined: ${counted(report.vertices, 'control point', 'control points')}.` : '';
+    return `${work.source.name}: ${size}. Interpolated: max error ${short(report.maxError)}, ${counted(report.iterations ?? 0, 'iteration', 'iterations')}.${normals}${refined}`;
   }
 
-  /** Shows other points on the same faces; the work stays. For use inside inOrder(). */
-  async preview(points: Float64Array): Promise<void> {
+  /** Shows other points on the same faces, or other settings; the work stays. For use inside inOrder(). */
+  async preview(other: Partial<Pick<Work, 'points' | 'settings'>>): Promise<void> {
     const { work } = this;
     if (!work) return;
-    const shown = { ...work, points };
+    const shown = { ...work, ...other };
     await this.sync(shown);
     const { drawing } = await this.engine.run((engine) => engine.show(wishesOf(shown)));
     this.stage.draw(drawing);
-    this.stage.drawPoints(points);
+    this.stage.drawPoints(shown.points);
     this.shown = null;
+  }
+
+  private drawArrows(work: Work): void {
+    const arrows = wantedNormals(work.settings).map(({ vertex, direction }) => ({ vertex, direction, at: placeOf(work, vertex) ?? [0, 0, 0] }) as const);
+    this.stage.arrows.draw(work.settings.interpolate ? arrows : [], ARROW * work.diagonal);
+  }
+
+  /** The normal at a point follows a hand; the surface as fast as the engine can. */
+  async turnTo(vertex: number, direction: Vec3): Promise<void> {
+    const { work } = this;
+    if (!work) return;
+    this.stage.arrows.change(vertex, { direction });
+    this.stage.touch();
+    this.turning = direction;
+    await this.inOrder(async () => {
+      if (this.turning === direction && vertexCount(work) <= MOST_TO_TURN)
+        await this.preview({ settings: { ...work.settings, ...withNormal(work.settings, vertex, direction) } });
+    });
+  }
+
+  /** The normal at a point, as one step; null: any. */
+  setNormal(vertex: number, direction: Vec3 | null): void {
+    this.turning = null;
+    const { work } = this;
+    if (!work) return;
+    this.set(direction ? `normal at point ${vertex}` : `no normal at point ${vertex}`, withNormal(work.settings, vertex, direction));
   }
 
   async color(): Promise<void> {
@@ -287,15 +327,13 @@ export class App {
   }
 
   pointAt(vertex: number): Vec3 | null {
-    const { work } = this;
-    if (!work || vertex >= vertexCount(work)) return null;
-    const [x = 0, y = 0, z = 0] = work.points.subarray(3 * vertex, 3 * vertex + 3);
-    return [x, y, z];
+    return this.work && placeOf(this.work, vertex);
   }
 
   /** The point goes to a place; the surface follows as fast as the engine can: places in between are left out. */
   dragTo(vertex: number, to: Vec3): void {
     this.stage.points.move(vertex, to);
+    this.stage.arrows.change(vertex, { at: to });
     this.stage.touch();
     if (this.dragging) {
       this.dragging.to = to;

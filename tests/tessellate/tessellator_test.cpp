@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "batten/error.h"
 #include "batten/mesh/triangulate.h"
 #include "batten/parallel/parallel.h"
@@ -235,6 +237,60 @@ TEST(Tessellator, CarriesCornersAsRefinementDoesLevelByLevel) {
       EXPECT_EQ(distinct(ours.corner_rows), distinct(theirs.corner_rows)) << "seams differ";
     }
   }
+}
+
+/// Moves one vertex after another; each time the update must leave what a whole evaluation gives, bit for bit.
+void expect_updates(const Mesh& mesh, const Scheme& scheme) {
+  const Topology topology(mesh);
+  const Tessellator tessellator(topology, scheme, 2);
+  const auto numbers = 3 * static_cast<std::size_t>(tessellator.vertex_count());
+  Points control = mesh.points;
+  Buffer<double> points(numbers), normals(numbers), all(numbers), all_normals(numbers);
+  tessellator.limit<double>(control, points, normals);
+  for (Index vertex = 0; vertex < mesh.vertex_count(); vertex += 1 + mesh.vertex_count() / 8) {
+    const Buffer<double> before = points;
+    const Index moved[] = {vertex, (vertex + 5) % mesh.vertex_count()};
+    for (const Index one : moved) control.row(one) += Eigen::RowVector3d(0.03, -0.02, 0.05);
+    std::vector<Index> written = tessellator.limit_around<double>(moved, control, points, normals);
+    tessellator.limit<double>(control, all, all_normals);
+    ASSERT_EQ(points, all) << vertex;
+    ASSERT_EQ(normals, all_normals) << vertex;
+    std::sort(written.begin(), written.end());
+    EXPECT_EQ(std::adjacent_find(written.begin(), written.end()), written.end()) << "a vertex is written twice";
+    for (std::size_t i = 0; i < numbers; ++i) {
+      const auto place = static_cast<Index>(i / 3);
+      if (points[i] != before[i]) ASSERT_TRUE(std::binary_search(written.begin(), written.end(), place)) << place;
+    }
+  }
+}
+
+TEST(Tessellator, EvaluatesAgainWhatMovedVerticesReach) {
+  for (const test::NamedMesh& sample : test::sample_meshes()) {
+    for (const unsigned seed : {0U, 1U}) {
+      SCOPED_TRACE(sample.name + " with tags " + std::to_string(seed));
+      Mesh mesh = test::jittered(sample.mesh, 0.05, 7);
+      if (seed > 0) mesh = test::with_random_tags(std::move(mesh), seed);
+      expect_updates(mesh, scheme_of(SchemeKind::CatmullClark));
+      if (!all_triangles(mesh)) continue;
+      expect_updates(mesh, scheme_of(SchemeKind::Loop));
+      expect_updates(mesh, scheme_of(SchemeKind::ModifiedButterfly));
+    }
+  }
+}
+
+TEST(Tessellator, EvaluatesFewFacesForOneVertex) {
+  const Mesh mesh = torus(60, 40);
+  const Tessellator tessellator(Topology(mesh), scheme_of(SchemeKind::CatmullClark), 2);
+  const auto numbers = 3 * static_cast<std::size_t>(tessellator.vertex_count());
+  Buffer<float> points(numbers), normals(numbers);
+  tessellator.limit<float>(mesh.points, points, normals);
+  const Index moved[] = {100};
+  // 4 by 4 faces have 17 by 17 points, of which the outermost stay, so that it does not matter who writes them.
+  const std::size_t written = tessellator.limit_around<float>(moved, mesh.points, points, normals).size();
+  EXPECT_GE(written, 15U * 15U);
+  EXPECT_LE(written, 17U * 17U);
+  const Index none[] = {2400};
+  EXPECT_THROW(tessellator.limit_around<float>(none, mesh.points, points, normals), Error);
 }
 
 }  // namespace

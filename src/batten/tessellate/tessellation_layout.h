@@ -80,20 +80,30 @@ class GridWriter {
       : base_(base), layout_(layout), out_(out) {}
 
   void write(Index face, const PieceGrid<Scalar>& grid) const {
+    for_each_run(face, [&](std::int64_t vertex, std::ptrdiff_t place, std::ptrdiff_t step, std::ptrdiff_t count) {
+      copy(grid, vertex, place, step, count);
+    });
+  }
+
+  /// visit(first vertex, place of its point in a plane of the face's grid, step from place to place, count) for what
+  /// the face owns; the vertices of a run stand in a row.
+  template <typename Visit>
+  void for_each_run(Index face, const Visit& visit) const {
     const Index n = layout_.steps;
+    const std::ptrdiff_t width = std::ptrdiff_t{n} + 1;
     for (Index j = 1; j < n; ++j) {
       const Index inside = layout_.row_length(j) - 2;
-      if (inside > 0) copy(grid, layout_.inside_face(face, j), grid.place(1, j), 1, inside);
+      if (inside > 0) visit(layout_.inside_face(face, j), width * j + 1, 1, inside);
     }
     const Index first = base_.face_begin(face);
     const Index corners = layout_.quads ? 4 : 3;
     for (Index c = 0; c < corners; ++c) {
       const Index h = first + c;
-      const std::ptrdiff_t here = corner_place(c, grid);
-      const std::ptrdiff_t step = (corner_place((c + 1) % corners, grid) - here) / n;
-      if (base_.vertex_half_edge(base_.origin(h)) == h) copy(grid, base_.origin(h), here, 1, 1);
+      const std::ptrdiff_t here = corner_place(c);
+      const std::ptrdiff_t step = (corner_place((c + 1) % corners) - here) / n;
+      if (base_.vertex_half_edge(base_.origin(h)) == h) visit(std::int64_t{base_.origin(h)}, here, 1, 1);
       if (base_.edge_half_edge(base_.edge(h)) != h) continue;
-      copy(grid, layout_.edge_start + layout_.per_edge * base_.edge(h), here + step, step, n - 1);
+      visit(layout_.edge_start + layout_.per_edge * base_.edge(h), here + step, step, n - 1);
     }
   }
 
@@ -130,10 +140,11 @@ class GridWriter {
     }
   }
 
-  std::ptrdiff_t corner_place(Index corner, const PieceGrid<Scalar>& grid) const {
-    const Index n = layout_.steps;
-    if (layout_.quads) return grid.place(corner == 1 || corner == 2 ? n : 0, corner >= 2 ? n : 0);
-    return grid.place(corner == 1 ? n : 0, corner == 2 ? n : 0);
+  std::ptrdiff_t corner_place(Index corner) const {
+    const std::ptrdiff_t n = layout_.steps;
+    const std::ptrdiff_t width = n + 1;
+    if (layout_.quads) return (corner == 1 || corner == 2 ? n : 0) + (corner >= 2 ? n * width : 0);
+    return (corner == 1 ? n : 0) + (corner == 2 ? n * width : 0);
   }
 
   const Topology& base_;

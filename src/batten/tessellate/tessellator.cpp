@@ -5,11 +5,15 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <numeric>
+#include <optional>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
+#include "batten/patch/reached_faces.h"
 #include "batten/progress.h"
 #include "batten/refine/child_topology.h"
 #include "batten/refine/refined_mesh.h"
@@ -90,14 +94,31 @@ struct Tessellator::Parts {
   /// One level by itself: cutting it into pieces takes longer than the rules themselves.
   bool is_one_step() const { return !patches.has_first_step() && layout.levels == 1; }
 
+  /// use(control values of the base).
+  template <typename Use>
+  void with_base_values(ConstValuesRef control_values, const Use& use) const {
+    if (patches.has_first_step()) return use(patches.base_values(control_values));
+    use(control_values);
+  }
+
   template <typename Scalar>
   void check_output(ConstValuesRef control_values, std::span<Scalar> out, std::span<Scalar> normals) const;
   template <typename Scalar>
   void fill_interpolating(ConstValuesRef control_values, std::span<Scalar> out, std::span<Scalar> normals,
                           const Progress& progress) const;
+  /// A vertex of the control mesh, which is one of the base too, where it has no faces.
+  template <typename Scalar>
+  void fill_isolated(Index vertex, ConstValuesRef base_values, std::span<Scalar> out, std::span<Scalar> normals) const;
+  /// some: base faces to fill, or none for all.
+  template <typename Scalar>
+  void fill_faces(std::optional<std::span<const Index>> some, ConstValuesRef base_values, bool limit,
+                  std::span<Scalar> out, std::span<Scalar> normals, const Progress& progress) const;
   template <typename Scalar>
   void evaluate(ConstValuesRef control_values, bool limit, std::span<Scalar> out, std::span<Scalar> normals,
                 const Progress& progress) const;
+  template <typename Scalar>
+  std::vector<Index> evaluate_around(std::span<const Index> moved, ConstValuesRef control_values, std::span<Scalar> out,
+                                     std::span<Scalar> normals) const;
 };
 
 namespace {
@@ -154,35 +175,36 @@ void Tessellator::Parts::fill_interpolating(ConstValuesRef control_values, std::
 }
 
 template <typename Scalar>
-void Tessellator::Parts::evaluate(ConstValuesRef control_values, bool limit, std::span<Scalar> out,
-                                  std::span<Scalar> normals, const Progress& progress) const {
-  constexpr double kCut = 0.1;  // of the time
-  check_output(control_values, out, normals);
-  if (out.empty()) return;
-  if (is_interpolating(scheme().kind)) return fill_interpolating(control_values, out, normals, progress);
-  if (!limit && is_one_step()) return refine_values(control(), scheme(), {}, control_values, out.data(), progress);
-  const auto k = static_cast<int>(control_values.cols());
+void Tessellator::Parts::fill_isolated(Index vertex, ConstValuesRef base_values, std::span<Scalar> out,
+                                       std::span<Scalar> normals) const {
+  if (!base().is_isolated(vertex)) return;
+  const auto k = static_cast<std::size_t>(base_values.cols());
+  for (std::size_t c = 0; c < k; ++c)
+    out[static_cast<std::size_t>(vertex) * k + c] = static_cast<Scalar>(base_values(vertex, static_cast<int>(c)));
+  if (!normals.empty()) std::fill_n(&normals[3 * static_cast<std::size_t>(vertex)], 3, Scalar(0));
+}
+
+template <typename Scalar>
+void Tessellator::Parts::fill_faces(std::optional<std::span<const Index>> some, ConstValuesRef base_values, bool limit,
+                                    std::span<Scalar> out, std::span<Scalar> normals, const Progress& progress) const {
+  const auto k = static_cast<int>(base_values.cols());
   const bool with_normals = !normals.empty();
-  const Values stepped = patches.has_first_step() ? patches.base_values(control_values) : Values();
-  const Eigen::Ref<const Values, 0, Eigen::OuterStride<>> base_values =
-      patches.has_first_step() ? Eigen::Ref<const Values, 0, Eigen::OuterStride<>>(stepped)
-                               : Eigen::Ref<const Values, 0, Eigen::OuterStride<>>(control_values);
   const LevelValues values(pieces(), base_values);
   std::vector<const PieceTables<Scalar>*> kinds{&tables<Scalar>(limit ? TileValue::Limit : TileValue::Refined)};
   if (with_normals) {
     kinds.push_back(&tables<Scalar>(TileValue::TangentU));
     kinds.push_back(&tables<Scalar>(TileValue::TangentV));
   }
-  report_progress(progress, kCut);
   const std::ptrdiff_t block = std::max<std::ptrdiff_t>(1, kPointsPerBlock / layout.faces_per_face);
   parallel_for(
-      base().face_count(),
+      some ? static_cast<std::ptrdiff_t>(some->size()) : base().face_count(),
       [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
         GridFiller<Scalar> filler(pieces(), kinds, values);
         std::vector<PieceGrid<Scalar>> grids(kinds.size(), PieceGrid<Scalar>(layout.steps, k));
         const GridWriter<Scalar> writer(base(), layout, out.data());
         const GridWriter<Scalar> normal_writer(base(), layout, normals.data());
-        for (auto f = static_cast<Index>(begin); f < end; ++f) {
+        for (std::ptrdiff_t i = begin; i < end; ++i) {
+          const Index f = some ? (*some)[static_cast<std::size_t>(i)] : static_cast<Index>(i);
           filler.fill(f, grids);
           writer.write(f, grids[0]);
           if (!with_normals) continue;
@@ -191,12 +213,52 @@ void Tessellator::Parts::evaluate(ConstValuesRef control_values, bool limit, std
           normal_writer.write(f, grids[1]);
         }
       },
-      block, progress_within(progress, kCut, 1.0));
-  for (Index v = 0; v < base().vertex_count(); ++v) {
-    if (!base().is_isolated(v)) continue;
-    for (int c = 0; c < k; ++c) out[static_cast<std::size_t>(v) * k + c] = static_cast<Scalar>(base_values(v, c));
-    if (with_normals) std::fill_n(&normals[3 * static_cast<std::size_t>(v)], 3, Scalar(0));
+      block, progress);
+}
+
+template <typename Scalar>
+void Tessellator::Parts::evaluate(ConstValuesRef control_values, bool limit, std::span<Scalar> out,
+                                  std::span<Scalar> normals, const Progress& progress) const {
+  check_output(control_values, out, normals);
+  if (out.empty()) return;
+  if (is_interpolating(scheme().kind)) return fill_interpolating(control_values, out, normals, progress);
+  if (!limit && is_one_step()) return refine_values(control(), scheme(), {}, control_values, out.data(), progress);
+  with_base_values(control_values, [&](ConstValuesRef base_values) {
+    fill_faces(std::nullopt, base_values, limit, out, normals, progress);
+    for (Index v = 0; v < base().vertex_count(); ++v) fill_isolated(v, base_values, out, normals);
+  });
+}
+
+template <typename Scalar>
+std::vector<Index> Tessellator::Parts::evaluate_around(std::span<const Index> moved, ConstValuesRef control_values,
+                                                       std::span<Scalar> out, std::span<Scalar> normals) const {
+  check_output(control_values, out, normals);
+  for (const Index vertex : moved) {
+    if (vertex >= 0 && vertex < control().vertex_count()) continue;
+    throw Error(ErrorCode::IndexOutOfRange, "there is no control vertex " + std::to_string(vertex) + " among " +
+                                                std::to_string(control().vertex_count()));
   }
+  std::vector<Index> written;
+  if (moved.empty()) return written;
+  if (is_interpolating(scheme().kind)) {
+    fill_interpolating(control_values, out, normals, {});
+    written.resize(static_cast<std::size_t>(layout.vertices));
+    std::iota(written.begin(), written.end(), Index{0});
+    return written;
+  }
+  const std::vector<Index> faces = reached_faces(patches, moved);
+  with_base_values(control_values, [&](ConstValuesRef base_values) {
+    fill_faces<Scalar>(faces, base_values, true, out, normals, {});
+    for (const Index vertex : moved) fill_isolated(vertex, base_values, out, normals);
+  });
+  const GridWriter<Scalar> writer(base(), layout, out.data());
+  for (const Index face : faces)
+    writer.for_each_run(face, [&](std::int64_t vertex, std::ptrdiff_t, std::ptrdiff_t, std::ptrdiff_t count) {
+      for (std::ptrdiff_t i = 0; i < count; ++i) written.push_back(static_cast<Index>(vertex + i));
+    });
+  for (const Index vertex : moved)
+    if (base().is_isolated(vertex)) written.push_back(vertex);
+  return written;
 }
 
 Tessellator::Tessellator(const SurfacePatches& patches, int levels) {
@@ -229,6 +291,12 @@ template <typename Scalar>
 void Tessellator::limit(ConstValuesRef control, std::span<Scalar> out, std::span<Scalar> normals,
                         const Progress& progress) const {
   parts_->evaluate<Scalar>(control, true, out, normals, progress);
+}
+
+template <typename Scalar>
+std::vector<Index> Tessellator::limit_around(std::span<const Index> moved, ConstValuesRef control,
+                                             std::span<Scalar> out, std::span<Scalar> normals) const {
+  return parts_->evaluate_around<Scalar>(moved, control, out, normals);
 }
 
 Index Tessellator::vertex(Index base_face, Index i, Index j) const {
@@ -303,6 +371,10 @@ template void Tessellator::refined(ConstValuesRef, std::span<float>, const Progr
 template void Tessellator::refined(ConstValuesRef, std::span<double>, const Progress&) const;
 template void Tessellator::limit(ConstValuesRef, std::span<float>, std::span<float>, const Progress&) const;
 template void Tessellator::limit(ConstValuesRef, std::span<double>, std::span<double>, const Progress&) const;
+template std::vector<Index> Tessellator::limit_around(std::span<const Index>, ConstValuesRef, std::span<float>,
+                                                      std::span<float>) const;
+template std::vector<Index> Tessellator::limit_around(std::span<const Index>, ConstValuesRef, std::span<double>,
+                                                      std::span<double>) const;
 template Tessellation<float> tessellate(const Topology&, const Scheme&, ConstValuesRef, int, const TessellateOptions&,
                                         const Progress&);
 template Tessellation<double> tessellate(const Topology&, const Scheme&, ConstValuesRef, int, const TessellateOptions&,

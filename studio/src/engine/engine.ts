@@ -1,5 +1,5 @@
 /** One mesh at work in the engine. Runs in a Worker (worker.ts) and, for tests, in Node. */
-import type { EngineModule, Elastic, MeshFile, ReportProgress, Surface } from './module';
+import type { EngineModule, Elastic, MeshFile, ReportProgress, ShapeMorph, Surface } from './module';
 import { got } from './module';
 import type { Contents, Corner, Crease, Drawing, ElasticWishes, Field, FitRound, Measure, Method, Moved, Probe, Problem, Report, Shape, SurfaceWishes, Vec3, Written } from './types';
 
@@ -23,7 +23,7 @@ function engineName(name: string): string {
 
 export class Engine {
   private file: MeshFile | null = null;
-  private second: MeshFile | null = null;
+  private morph: ShapeMorph | null = null;
   private surface: Surface | null = null;
   private elastic: Elastic | null = null;
   private sculpted: Surface | null = null;
@@ -74,12 +74,34 @@ export class Engine {
     return this.take(file);
   }
 
-  /** A mesh beside the first: the end of a morph. */
-  openSecond(name: string, bytes: Uint8Array): Contents {
-    const file = this.read(name, bytes);
-    this.second?.delete();
-    this.second = file;
-    return file.contents();
+  /** The morph from the mesh, as its points are now, to another of the same faces. */
+  startMorph(name: string, bytes: Uint8Array, wishes: SurfaceWishes): void {
+    const end = this.read(name, bytes);
+    try {
+      const morph = got(this.module.makeMorph(this.mesh, end, wishes));
+      this.morph?.delete();
+      this.morph = morph;
+    } finally {
+      end.delete();
+    }
+  }
+
+  private get morphing(): ShapeMorph {
+    if (!this.morph) throw new Error('open the shape to morph into first');
+    return this.morph;
+  }
+
+  /** The points at a time of it. */
+  morphAt(time: number): Float64Array {
+    return got(this.morphing.at(time));
+  }
+
+  /** The surface in motion, as GLB. */
+  morphFilm(seconds: number): Uint8Array<ArrayBuffer> {
+    got(this.morphing.film('/film.glb', seconds, this.report));
+    const bytes = this.module.FS.readFile('/film.glb');
+    this.module.FS.unlink('/film.glb');
+    return bytes;
   }
 
   problems(): Problem[] {
@@ -126,8 +148,8 @@ export class Engine {
     const begin = performance.now();
     const report = got(this.shown.move(vertex, to[0], to[1], to[2], rings));
     const solved = performance.now();
-    const shape = got(this.shown.shape());
-    return { ...shape, ...report, solveMs: solved - begin, drawMs: performance.now() - solved };
+    const change = got(this.shown.change());
+    return { ...change, maxError: report.maxError, solveMs: solved - begin, drawMs: performance.now() - solved };
   }
 
   field(measure: Measure): Field {
@@ -177,6 +199,12 @@ export class Engine {
     return this.module.FS.readFile('/mesh.obj');
   }
 
+  /** The mesh given with these normals (SurfaceWishes), as PLY: what the tool's --normals takes. */
+  writeNormals(normals: Float64Array): Uint8Array<ArrayBuffer> {
+    got(this.mesh.writeNormals('/normals.ply', normals));
+    return this.module.FS.readFile('/normals.ply');
+  }
+
   methods(wishes: SurfaceWishes): Method[] {
     return got(this.module.comparedMethods(this.mesh, wishes, this.report));
   }
@@ -187,13 +215,6 @@ export class Engine {
 
   bands(wishes: SurfaceWishes, gains: readonly number[]): { points: Float64Array; energies: Float64Array } {
     return got(this.module.bandedPoints(this.mesh, wishes, [...gains]));
-  }
-
-  /** from: the points at time 0, on the faces of the mesh. */
-  morph(from: Float64Array, wishes: SurfaceWishes, time: number): Float64Array {
-    if (!this.second) throw new Error('open the shape to morph into first');
-    got(this.mesh.setPoints(from));
-    return got(this.module.morphedPoints(this.mesh, this.second, wishes, time)).points;
   }
 
   fit(vertices: number, tolerance: number): Fitted {
@@ -208,7 +229,7 @@ export class Engine {
     const control = got(this.shown.controlFile());
     try {
       this.elastic = got(this.module.makeElastic(control, wishes));
-      const plain: SurfaceWishes = { scheme: wishes.scheme, boundary: wishes.boundary, alpha: 0, interpolate: false, fair: false, smoothing: 0, levels: 0 };
+      const plain: SurfaceWishes = { scheme: wishes.scheme, boundary: wishes.boundary, alpha: 0, interpolate: false, fair: false, smoothing: 0, levels: 0, normals: new Float64Array() };
       this.sculpted = got(this.module.makeSurface(control, plain, null));
       return { report: this.sculpted.report(), drawing: got(this.sculpted.drawing()) };
     } finally {

@@ -1,5 +1,5 @@
 /** The Embind classes of studio/engine/bindings.cpp, as Emscripten makes them. */
-import type { Contents, Drawing, ElasticWishes, Field, FitRound, Method, Probe, Problem, Report, Shape, SurfaceWishes } from './types';
+import type { Change, Contents, Drawing, ElasticWishes, Field, FitRound, Method, Probe, Problem, Report, Shape, SurfaceWishes } from './types';
 import { EngineError } from './types';
 
 export interface Failure {
@@ -19,11 +19,13 @@ export interface MeshFile extends Handle {
   setTags(creases: Float64Array, corners: Float64Array): Result<null>;
   repaired(weld: number): Result<{ changes: string[]; mesh: MeshFile }>;
   write(path: string, levels: number): Result<{ losses: string[] }>;
+  writeNormals(path: string, normals: Float64Array): Result<null>;
 }
 export interface Surface extends Handle {
   report(): Report;
   drawing(): Result<Drawing>;
   shape(): Result<Shape>;
+  change(): Result<Change>;
   move(vertex: number, x: number, y: number, z: number, rings: number): Result<{ moved?: number; maxError?: number }>;
   setControl(points: Float64Array): Result<null>;
   limitPoints(): Result<Float64Array>;
@@ -40,6 +42,10 @@ export interface Elastic extends Handle {
   step(count: number): Result<{ time: number; kinetic: number; elastic: number }>;
   control(): Result<Float64Array>;
 }
+export interface ShapeMorph extends Handle {
+  at(time: number): Result<Float64Array>;
+  film(path: string, seconds: number, report: ReportProgress): Result<null>;
+}
 export interface FileSystem {
   writeFile(path: string, bytes: Uint8Array): void;
   readFile(path: string): Uint8Array<ArrayBuffer>;
@@ -53,7 +59,7 @@ export interface EngineModule {
   makeElastic(file: MeshFile, wishes: ElasticWishes): Result<Elastic>;
   denoisedPoints(file: MeshFile, wishes: SurfaceWishes, m: number, passes: number, report: ReportProgress): Result<{ points: Float64Array; removed: number }>;
   bandedPoints(file: MeshFile, wishes: SurfaceWishes, gains: number[]): Result<{ points: Float64Array; energies: Float64Array }>;
-  morphedPoints(from: MeshFile, to: MeshFile, wishes: SurfaceWishes, time: number): Result<{ points: Float64Array }>;
+  makeMorph(from: MeshFile, to: MeshFile, wishes: SurfaceWishes): Result<ShapeMorph>;
   comparedMethods(file: MeshFile, wishes: SurfaceWishes, report: ReportProgress): Result<Method[]>;
   fitted(points: MeshFile, vertices: number, tolerance: number, report: ReportProgress): Result<{ mesh: MeshFile; rms: number; max: number; outliers: number; rounds: FitRound[] }>;
 }

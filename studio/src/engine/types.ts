@@ -49,6 +49,8 @@ export interface SurfaceWishes {
   fair: boolean;
   smoothing: number;
   levels: number;
+  /** Wanted normals, four numbers each: a vertex and a direction. */
+  normals: Float64Array;
 }
 
 export interface Report {
@@ -69,6 +71,8 @@ export interface Report {
   residuals?: Float64Array;
   measuredAfter?: Int32Array;
   singular?: number;
+  /** Between normals wanted and reached, in radians. */
+  worstAngle?: number;
 }
 
 export interface Shape {
@@ -82,9 +86,15 @@ export interface Drawing extends Shape {
   sharpness: Float32Array;
 }
 
-export interface Moved extends Shape {
+/** What moved of a Shape: rows of these vertices only, or without `vertices` all of it. */
+export interface Change extends Shape {
+  vertices?: Int32Array;
+  /** Whose control points are in `control`. */
+  moved?: Int32Array;
+}
+
+export interface Moved extends Change {
   maxError?: number;
-  moved?: number;
   /** Milliseconds that solving and drawing took in the engine. */
   solveMs: number;
   drawMs: number;

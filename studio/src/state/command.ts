@@ -1,6 +1,6 @@
 /** The tool's commands that do the same to a file. */
 import type { Settings, Work } from './work';
-import { isCloud, schemeNumber } from './work';
+import { isCloud, schemeNumber, wantedNormals } from './work';
 
 function quoted(name: string): string {
   return /^[\w./-]+$/.test(name) ? name : `'${name.replaceAll("'", `'\\''`)}'`;
@@ -29,7 +29,8 @@ export function commandFor(work: Work, budget: number): string {
   if (isCloud(work)) return fitCommand(work, budget);
   const scheme = schemeOptions(work);
   if (!settings.interpolate) return command('subdivide', work, 'surface.obj', '--limit', '--levels', '2', ...scheme);
-  return command('interpolate', work, 'control.obj', ...scheme, ...fairOptions(settings));
+  const normals = wantedNormals(settings).length > 0 ? ['--normals', 'normals.ply'] : [];
+  return command('interpolate', work, 'control.obj', ...scheme, ...fairOptions(settings), ...normals);
 }
 
 export function fitCommand(work: Work, vertices: number): string {

@@ -1,5 +1,5 @@
 /** What the person works on: one plain object, never changed in place. */
-import type { BoundaryWord, Contents, Corner, Crease, SchemeWord, SurfaceWishes } from '../engine/types';
+import type { BoundaryWord, Contents, Corner, Crease, SchemeWord, SurfaceWishes, Vec3 } from '../engine/types';
 import { BOUNDARIES, SCHEMES } from '../engine/types';
 
 export interface Settings {
@@ -13,6 +13,14 @@ export interface Settings {
   readonly smoothing: number;
   /** How far a dragged point's change reaches, in rings; 0: as far as it matters. */
   readonly rings: number;
+  /** Which normals the surface shall have at its points; links and kept work of earlier pages have none. */
+  readonly normals?: readonly WantedNormal[];
+}
+
+export interface WantedNormal {
+  readonly vertex: number;
+  /** Of any length but zero. */
+  readonly direction: Vec3;
 }
 
 export const PLAIN: Settings = { interpolate: false, scheme: 'auto', boundary: 'edge-only', alpha: 0, fair: false, smoothing: 0, rings: 0 };
@@ -67,6 +75,15 @@ export function workOf(source: Source, contents: Contents, settings: Settings): 
   };
 }
 
+export function wantedNormals(settings: Settings): readonly WantedNormal[] {
+  return settings.normals ?? [];
+}
+/** The settings that want this normal at its vertex instead of any other, or with null none. */
+export function withNormal(settings: Settings, vertex: number, direction: Vec3 | null): Pick<Settings, 'normals'> {
+  const others = wantedNormals(settings).filter((one) => one.vertex !== vertex);
+  return { normals: direction ? [...others, { vertex, direction }] : others };
+}
+
 export function schemeNumber(work: Work): number {
   return work.settings.scheme === 'auto' ? work.fileScheme : SCHEMES.indexOf(work.settings.scheme);
 }
@@ -82,5 +99,6 @@ export function wishesOf(work: Work): SurfaceWishes {
     fair: settings.interpolate && settings.fair,
     smoothing: settings.smoothing * work.diagonal,
     levels: 0,
+    normals: Float64Array.from(settings.interpolate ? wantedNormals(settings).flatMap(({ vertex, direction }) => [vertex, ...direction]) : []),
   };
 }

@@ -4,7 +4,7 @@ import type { Contents, Vec3 } from '../engine/types';
 import { edgeLoop, sharpnessOf, withCreases } from '../state/creases';
 import { linkOf } from '../state/link';
 import type { Source } from '../state/work';
-import { isCloud, PLAIN, vertexCount, wishesOf, workOf } from '../state/work';
+import { isCloud, PLAIN, vertexCount, wantedNormals, wishesOf, workOf } from '../state/work';
 import { short } from './text';
 
 /** The sharpness that new creases get; the panel's slider sets it. */
@@ -104,6 +104,26 @@ export function toggleCorner(app: App): void {
   app.store.run(there ? 'smooth corner' : 'corner', { kind: 'tags', creases: work.creases, corners });
 }
 
+/** The picked point keeps the surface's normal of now, until it is turned; or any again. */
+export function toggleNormal(app: App): void {
+  const { work, picked, drawing } = app;
+  if (!work || picked === null || !drawing) return;
+  const there = wantedNormals(work.settings).some((one) => one.vertex === picked);
+  const [x = 0, y = 0, z = 0] = drawing.normals.subarray(3 * picked, 3 * picked + 3);
+  app.setNormal(picked, there ? null : [x, y, z]);
+}
+
+/** For the tool's --normals. */
+export async function downloadNormals(app: App): Promise<void> {
+  const { work } = app;
+  if (!work) return;
+  await app.inOrder(async () => {
+    const bytes = await app.withEngine<Uint8Array<ArrayBuffer>>((engine) => engine.writeNormals(wishesOf(work).normals), work);
+    save('normals.ply', new Blob([bytes]));
+    app.face.say('Saved normals.ply, which the command takes.');
+  });
+}
+
 export function pickNext(app: App, by: number): void {
   const { work } = app;
   if (!work) return;
@@ -119,7 +139,8 @@ export async function nudge(app: App, direction: Vec3, share: number): Promise<v
   await app.movePoint(picked, [from[0] + step * direction[0], from[1] + step * direction[1], from[2] + step * direction[2]]);
 }
 
-function save(name: string, blob: Blob): void {
+/** Hands a file to the person. */
+export function save(name: string, blob: Blob): void {
   const url = URL.createObjectURL(blob);
   const link = document.createElement('a');
   link.href = url;

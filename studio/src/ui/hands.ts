@@ -11,7 +11,7 @@ const TAP_MS = 300;
 
 export class Hands {
   readonly picker: Picker;
-  private down: { x: number; y: number; at: number; vertex: number | null; start: Vec3 | null; moved: boolean } | null = null;
+  private down: { x: number; y: number; at: number; vertex: number | null; start: Vec3 | null; moved: boolean; arrow?: Vec3 } | null = null;
   private fingers = 0;
   private twoSince = 0;
 
@@ -34,7 +34,7 @@ export class Hands {
   }
 
   private press(event: PointerEvent): void {
-    if (event.pointerType === 'touch' && ++this.fingers === 2) this.twoSince = performance.now();
+    if (event.pointerType === 'touch' && ++this.fingers === 2) this.twoSince = event.timeStamp;
     const { work } = this.app;
     if (event.button !== 0 || !work || this.fingers > 1) return;
     const { x, y } = this.place(event);
@@ -43,6 +43,13 @@ export class Hands {
       if (at) this.hold(event);
       if (at) this.sculptor.grab(at);
       this.down = { x, y, at: performance.now(), vertex: null, start: at, moved: false };
+      return;
+    }
+    const arrow = this.picker.nearest(this.app.stage.arrows.tips(), x, y);
+    if (arrow) {
+      this.down = { x, y, at: performance.now(), vertex: arrow.vertex, start: arrow.tip, moved: false, arrow: arrow.at };
+      this.hold(event);
+      this.app.pick(arrow.vertex);
       return;
     }
     const vertex = event.altKey ? null : this.picker.vertex(work.points, x, y);
@@ -71,6 +78,7 @@ export class Hands {
     const to = this.picker.onPlane(down.start, x, y);
     if (!to) return;
     if (this.sculptor.running) this.sculptor.pull(to);
+    else if (down.arrow && down.vertex !== null) void this.app.turnTo(down.vertex, this.turned(down.arrow, to));
     else if (down.vertex !== null) this.app.dragTo(down.vertex, to);
   }
 
@@ -85,7 +93,7 @@ export class Hands {
     if (event.pointerType === 'touch') {
       this.fingers = Math.max(0, this.fingers - 1);
       if (this.twoSince > 0 && this.fingers === 0) {
-        if (performance.now() - this.twoSince < TAP_MS) this.app.undo();
+        if (event.timeStamp - this.twoSince < TAP_MS) this.app.undo();
         this.twoSince = 0;
         this.down = null;
         return;
@@ -97,6 +105,11 @@ export class Hands {
     if (!down) return;
     if (this.sculptor.running) {
       this.sculptor.release();
+      return;
+    }
+    if (down.arrow) {
+      const to = down.moved && down.start ? this.picker.onPlane(down.start, ...this.at(event)) : null;
+      if (to && down.vertex !== null) this.app.setNormal(down.vertex, this.turned(down.arrow, to));
       return;
     }
     if (down.moved) {
@@ -111,6 +124,16 @@ export class Hands {
     const at = this.picker.surface(down.x, down.y);
     if (at) this.probe(at);
     else this.app.pick(null);
+  }
+
+  private at(event: MouseEvent): [number, number] {
+    const { x, y } = this.place(event);
+    return [x, y];
+  }
+  private turned(from: Vec3, to: Vec3): Vec3 {
+    const way = [to[0] - from[0], to[1] - from[1], to[2] - from[2]] as const;
+    const length = Math.hypot(...way) || 1;
+    return [way[0] / length, way[1] / length, way[2] / length];
   }
 
   private crease(x: number, y: number, loop: boolean): void {

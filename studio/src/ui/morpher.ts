@@ -2,8 +2,11 @@
 import type { App } from '../app';
 import type { Work } from '../state/work';
 import { wishesOf } from '../state/work';
+import { save } from './actions';
 
 const PLAY_MS = 2500;
+/** As the tool's films. */
+const FILM_SECONDS = 2;
 
 export class Morpher {
   /** The mesh from which the morph starts, and the name of the other. */
@@ -22,7 +25,7 @@ export class Morpher {
     const { work } = this.app;
     if (!work) return;
     await this.app.inOrder(async () => {
-      await this.app.withEngine((engine) => engine.openSecond(name, bytes), work);
+      await this.app.withEngine((engine) => engine.startMorph(name, bytes, wishesOf(work)), work);
       this.from = work;
       this.name = name;
       this.app.face.say(`${name} is the shape to morph into.`);
@@ -37,7 +40,7 @@ export class Morpher {
     this.time = time;
     await this.app.inOrder(async () => {
       if (time !== this.time) return; // a later one is wanted
-      await this.app.preview(await this.app.engine.run((engine) => engine.morph(from.points, wishesOf(from), time)));
+      await this.app.preview({ points: await this.app.engine.run((engine) => engine.morphAt(time)) });
     });
   }
 
@@ -45,8 +48,19 @@ export class Morpher {
     const { from } = this;
     if (!from || !this.ready) return;
     await this.app.inOrder(async () => {
-      const points = await this.app.engine.run((engine) => engine.morph(from.points, wishesOf(from), time));
+      const points = await this.app.engine.run((engine) => engine.morphAt(time));
       this.app.store.run(`morph to ${time}`, { kind: 'all-points', points });
+    });
+  }
+
+  /** The whole motion as an animation that viewers play. */
+  async saveFilm(): Promise<void> {
+    const { from } = this;
+    if (!from || !this.ready) return;
+    await this.app.inOrder(async () => {
+      const bytes = await this.app.engine.run((engine) => engine.morphFilm(FILM_SECONDS));
+      save('morph.glb', new Blob([bytes]));
+      this.app.face.say('Saved morph.glb, an animation.');
     });
   }
 

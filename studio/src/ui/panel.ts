@@ -4,8 +4,8 @@ import type { BoundaryWord, Method, Vec3 } from '../engine/types';
 import { PRESETS } from '../engine/types';
 import { bandsCommand, commandFor, denoiseCommand, fitCommand, morphCommand, repairCommand, textureCommand } from '../state/command';
 import type { Settings, Work } from '../state/work';
-import { isCloud, wishesOf } from '../state/work';
-import { copyLink, creaseSharpness, denoise, download, downloadPicture, equalize, fitSurface, nudge, repairMesh, toggleCorner, toggleInterpolation } from './actions';
+import { isCloud, wantedNormals, wishesOf } from '../state/work';
+import { copyLink, creaseSharpness, denoise, download, downloadNormals, downloadPicture, equalize, fitSurface, nudge, repairMesh, toggleCorner, toggleInterpolation, toggleNormal } from './actions';
 import { button, choice, fileButton, h, section, slider, tick } from './dom';
 import { plotMethods } from './plot';
 import { modelUrl } from './gallery';
@@ -47,7 +47,7 @@ const BESIDE_CHOICES: readonly (readonly [App['beside'], string])[] = [
   ['modified-butterfly', 'Modified Butterfly'],
 ];
 const BANDS = ['up to 4 edges', '4 to 8', '8 to 16', 'the shape'];
-const FORMATS = ['obj', 'ply', 'off', 'stl', 'usda'] as const;
+const FORMATS = ['obj', 'ply', 'off', 'stl', 'usda', 'glb'] as const;
 
 function isTexture(coloring: Coloring): boolean {
   return PRESETS.some((preset) => preset === coloring);
@@ -178,6 +178,13 @@ export class Panel {
       const input = h('input', { type: 'number', step: 'any', onchange: () => this.type(i, input.valueAsNumber) });
       return { element: h('label', { class: 'row' }, h('span', {}, axis), this.needs(input, () => app.picked !== null)), input };
     });
+    const wanted = (): Vec3 | null => (app.work && wantedNormals(app.work.settings).find((one) => one.vertex === app.picked)?.direction) ?? null;
+    const turns = (['x', 'y', 'z'] as const).map((axis, i) => {
+      const input = h('input', { type: 'number', step: '0.05', onchange: () => this.turn(wanted(), i, input.valueAsNumber) });
+      return { element: h('label', { class: 'row' }, h('span', {}, `normal ${axis}`), this.needs(input, () => wanted() !== null)), input };
+    });
+    const normal = this.needs(button('Normal', () => toggleNormal(app), { 'aria-pressed': 'false', title: 'The surface keeps its normal at the picked point, until you drag the arrow' }), () => app.picked !== null && (app.work?.settings.interpolate ?? false) && app.drawing !== null);
+    const save = this.needs(button('Download normals', () => void downloadNormals(app)), () => app.work !== null && wantedNormals(app.work.settings).length > 0);
     const sharpness = slider('Sharpness', { min: 0.5, max: 10, step: 0.5, value: 10 }, { input: (value) => void (creaseSharpness.value = value) });
     const rings = slider('Reach, rings', { min: 0, max: 6, step: 1, value: 0 }, { change: (value) => app.set(`reach ${value}`, { rings: value }) });
     const corner = this.needs(button('Corner', () => toggleCorner(app)), () => app.picked !== null);
@@ -185,9 +192,12 @@ export class Panel {
       const at = app.picked === null ? null : app.pointAt(app.picked);
       title.textContent = at ? `Point ${app.picked}` : 'Click a point to pick it, or press N. Alt click an edge to crease it.';
       inputs.forEach(({ input }, i) => void (input.value = at ? String(at[i]) : ''));
+      const direction = wanted();
+      normal.setAttribute('aria-pressed', String(direction !== null));
+      turns.forEach(({ input }, i) => void (input.value = direction ? String(Number(direction[i]?.toPrecision(4))) : ''));
       rings.set(app.work?.settings.rings ?? 0);
     });
-    return section('Points and creases', false, title, ...inputs.map((one) => one.element), sharpness.element, h('div', { class: 'buttons' }, corner), rings.element, h('p', { class: 'note' }, 'Reach 0: a change goes as far as it must.'));
+    return section('Points and creases', false, title, ...inputs.map((one) => one.element), h('div', { class: 'buttons' }, normal, save), ...turns.map((one) => one.element), sharpness.element, h('div', { class: 'buttons' }, corner), rings.element, h('p', { class: 'note' }, 'Reach 0: a change goes as far as it must.'));
   }
 
   private type(axis: number, value: number): void {
@@ -196,6 +206,13 @@ export class Panel {
     if (app.picked === null || !from || !Number.isFinite(value)) return;
     const to: Vec3 = [axis === 0 ? value : from[0], axis === 1 ? value : from[1], axis === 2 ? value : from[2]];
     void app.movePoint(app.picked, to);
+  }
+
+  private turn(from: Vec3 | null, axis: number, value: number): void {
+    const { app } = this;
+    if (app.picked === null || !from || !Number.isFinite(value)) return;
+    const to: Vec3 = [axis === 0 ? value : from[0], axis === 1 ? value : from[1], axis === 2 ? value : from[2]];
+    if (Math.hypot(...to) > 0) app.setNormal(app.picked, to);
   }
 
   private sculptSection(): HTMLElement {
@@ -245,7 +262,8 @@ export class Panel {
     const time = slider('Time', { min: 0, max: 1, step: 0.02, value: 0 }, { input: (value) => void morpher.preview(value), change: (value) => void morpher.keep(value) });
     this.needs(time.input, () => morpher.ready);
     const play = this.needs(button('Play', () => void morpher.play()), () => morpher.ready);
-    return section('Morph', false, h('p', { class: 'note' }, 'Into a mesh of the same faces: the overall shape moves first, then the detail.'), h('div', { class: 'buttons' }, other.element, example, play), time.element, this.command((work) => (morpher.ready ? morphCommand(work, morpher.name, time.input.valueAsNumber) : null)));
+    const film = this.needs(button('Download film', () => void morpher.saveFilm(), { title: 'A GLB that viewers play' }), () => morpher.ready);
+    return section('Morph', false, h('p', { class: 'note' }, 'Into a mesh of the same faces: the overall shape moves first, then the detail.'), h('div', { class: 'buttons' }, other.element, example, play, film), time.element, this.command((work) => (morpher.ready ? morphCommand(work, morpher.name, time.input.valueAsNumber) : null)));
   }
 
   private fitSection(): HTMLElement {

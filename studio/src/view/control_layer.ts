@@ -4,6 +4,7 @@ import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
 import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js';
 import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
 import type { Drawing } from '../engine/types';
+import { putRows } from './rows';
 
 /** Of more, only creases are drawn: lines would hide the surface. */
 const MOST_EDGES = 40_000;
@@ -20,6 +21,8 @@ export class ControlLayer {
   private readonly plain = lines(1.2);
   private readonly sharp = lines(3.2);
   private drawn: readonly { object: LineSegments2; ends: Uint32Array; places: Float32Array }[] = [];
+
+  private control = new Float32Array();
 
   constructor() {
     this.plain.material.opacity = 0.45;
@@ -56,11 +59,13 @@ export class ControlLayer {
     this.move(drawing.control);
   }
 
-  /** The same edges between other control points. */
-  move(control: Float32Array): void {
+  /** The same edges between other control points: those of `moved`, or all. */
+  move(control: Float32Array, moved?: Int32Array): void {
+    if (moved) putRows(this.control, control, moved);
+    else this.control = control.slice();
     for (const { object, ends, places } of this.drawn) {
       if (ends.length === 0) continue;
-      ends.forEach((end, i) => places.set(control.subarray(3 * end, 3 * end + 3), 3 * i));
+      ends.forEach((end, i) => places.set(this.control.subarray(3 * end, 3 * end + 3), 3 * i));
       const start = object.geometry.getAttribute('instanceStart') as InterleavedBufferAttribute;
       start.data.array.set(places);
       start.data.needsUpdate = true;

@@ -52,6 +52,15 @@ export class Picker {
     return near.sort((a, b) => a.away - b.away);
   }
 
+  /** Of things with a tip the one whose tip is nearest to a pixel, if it is near. */
+  nearest<Tipped extends { readonly tip: Vec3 }>(things: readonly Tipped[], x: number, y: number): Tipped | null {
+    const away = ({ tip }: Tipped): number => {
+      const screen = this.project(...tip);
+      return Math.hypot(screen.x - x, screen.y - y);
+    };
+    return things.filter((one) => away(one) < NEAR_PIXELS).sort((a, b) => away(a) - away(b))[0] ?? null;
+  }
+
   /** True where a point, be it hidden, is near a pixel: quick enough for each move of the pointer. */
   isNear(points: Float64Array, x: number, y: number): boolean {
     return this.near(points, x, y).length > 0;

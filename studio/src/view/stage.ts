@@ -1,7 +1,8 @@
 /** The picture: camera, layers, light and dark. Draws when something has changed, and not otherwise. */
 import CameraControls from 'camera-controls';
 import * as THREE from 'three';
-import type { Drawing, Field, Shape, Vec3 } from '../engine/types';
+import type { Change, Drawing, Field, Vec3 } from '../engine/types';
+import { ArrowLayer } from './arrow_layer';
 import { CloudLayer } from './cloud_layer';
 import { ControlLayer } from './control_layer';
 import { PointsLayer } from './points_layer';
@@ -31,6 +32,7 @@ export class Stage {
   readonly control = new ControlLayer();
   readonly points = new PointsLayer();
   readonly cloud = new CloudLayer();
+  readonly arrows = new ArrowLayer();
   /** A second surface, to the right of the first. */
   private readonly second = new SurfaceLayer();
   private readonly renderer: THREE.WebGLRenderer;
@@ -49,7 +51,7 @@ export class Stage {
     this.canvas = canvas;
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
-    this.scene.add(this.surface.mesh, this.control.group, this.points.object, this.cloud.object, this.second.mesh);
+    this.scene.add(this.surface.mesh, this.control.group, this.points.object, this.cloud.object, this.arrows.group, this.second.mesh);
     this.second.clear();
     this.controls = this.steer(this.perspective);
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement ?? canvas);
@@ -108,6 +110,7 @@ export class Stage {
     const palette = dark ? PALETTES.dark : PALETTES.light;
     this.control.colors(palette.line, palette.crease);
     this.points.colors(palette.point, palette.picked, palette.rim);
+    this.arrows.setColor(palette.picked);
     this.touch();
   }
 
@@ -222,9 +225,9 @@ export class Stage {
     this.touch();
   }
 
-  reshape(shape: Shape): void {
-    this.surface.reshape(shape);
-    this.control.move(shape.control);
+  reshape(change: Change): void {
+    this.surface.reshape(change);
+    this.control.move(change.control, change.moved);
     this.touch();
   }
   drawPoints(points: Float64Array): void {

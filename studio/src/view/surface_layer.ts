@@ -1,6 +1,7 @@
 /** The limit surface as triangles with exact normals, in one of three looks. */
 import { BufferAttribute, BufferGeometry, DoubleSide, Mesh, MeshMatcapMaterial, ShaderMaterial } from 'three';
-import type { Drawing, Field, Shape } from '../engine/types';
+import type { Change, Drawing, Field } from '../engine/types';
+import { putRows } from './rows';
 import { barPlace, barTexture, EVEN, matcap, PORCELAIN, SATIN } from './matcap';
 
 /** Stripes of light from all around: they break where the surface does. */
@@ -57,12 +58,12 @@ export class SurfaceLayer {
   }
 
   /** The same triangles elsewhere. */
-  reshape(shape: Shape): void {
+  reshape(change: Change): void {
     const { geometry } = this.mesh;
-    for (const [name, numbers] of [['position', shape.points], ['normal', shape.normals]] as const) {
+    for (const [name, numbers] of [['position', change.points], ['normal', change.normals]] as const) {
       const attribute = geometry.getAttribute(name) as BufferAttribute | undefined;
-      if (!attribute || attribute.array.length !== numbers.length) return;
-      attribute.array.set(numbers);
+      if (!attribute) return;
+      if (!putRows(attribute.array, numbers, change.vertices)) return;
       attribute.needsUpdate = true;
     }
     geometry.boundingSphere = null;

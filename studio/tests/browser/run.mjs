@@ -45,6 +45,14 @@ async function expand(page, title) {
   const section = page.locator('details', { has: page.getByRole('heading', { name: title, exact: true }) });
   if ((await section.getAttribute('open')) === null) await section.locator('summary').click();
 }
+/** What a GLB says, and its numbers. */
+function readGlb(path) {
+  const bytes = readFileSync(path);
+  const length = bytes.readUInt32LE(12);
+  const json = JSON.parse(bytes.subarray(20, 20 + length).toString('utf8'));
+  const binary = bytes.subarray(20 + length + 8);
+  return { json, floats: new Float32Array(binary.buffer.slice(binary.byteOffset, binary.byteOffset + (binary.length & ~3))) };
+}
 /** Where a vertex that faces the eye is on the page. */
 async function visiblePoint(page) {
   return page.evaluate(() => {
@@ -298,6 +306,67 @@ const tasks = {
     await page.evaluate(() => history.replaceState(null, '', location.pathname));
   },
 
+  async 'a normal is turned by its arrow, and by numbers'({ page }) {
+    await openModel(page, 'creature');
+    await press(page, 'Interpolate');
+    await expand(page, 'Points and creases');
+    await page.evaluate(() => globalThis.studio.app.pick(300));
+    await press(page, 'Normal');
+    assert.match(await status(page), /Normals within/);
+    const before = await points(page);
+    const arrow = () => page.evaluate(() => {
+      const { app, picker } = globalThis.studio;
+      const box = app.stage.canvas.getBoundingClientRect();
+      const { tip } = app.stage.arrows.tips()[0];
+      const { x, y } = picker.screen(tip);
+      return { x: box.left + x, y: box.top + y, direction: app.work.settings.normals[0].direction };
+    });
+    const first = await arrow();
+    await page.mouse.move(first.x, first.y);
+    await page.mouse.down();
+    for (let i = 1; i <= 5; ++i) await page.mouse.move(first.x + 5 * i, first.y - 4 * i);
+    await page.mouse.up();
+    await page.waitForFunction(() => globalThis.studio.app.store.state.past.at(-1)?.label === 'normal at point 300');
+    await idle(page);
+    const turned = await arrow();
+    assert.ok(Math.hypot(...turned.direction.map((part, i) => part - first.direction[i])) > 0.05);
+    assert.ok(Math.hypot(turned.x - first.x - 25, turned.y - first.y + 20) < 12, 'the arrow follows the hand');
+    assert.match(await status(page), /Normals within \S+.* degrees/);
+    assert.deepEqual(await points(page), before);
+    await shoot(page, 'studio-normal');
+    const reached = await page.evaluate(() => {
+      const { drawing } = globalThis.studio.app;
+      return [...drawing.normals.subarray(900, 903)];
+    });
+    assert.ok(Math.hypot(...turned.direction.map((part, i) => part - reached[i])) < 1e-5);
+    // The same as the tool with the file of normals.
+    const normals = await download(page, 'Download normals');
+    tool('interpolate', `${models}creature.obj`, '--normals', normals, '-o', join(scratch, 'turned.obj'));
+    const own = readObj(readFileSync(await download(page, 'Download OBJ'), 'utf8'));
+    const its = readObj(readFileSync(join(scratch, 'turned.obj'), 'utf8'));
+    assert.ok(difference(own, its) < 1e-12 * diagonal(own));
+    await page.getByLabel('normal x').fill('1');
+    await page.getByLabel('normal x').blur();
+    await idle(page);
+    assert.ok((await arrow()).direction[0] === 1);
+    await press(page, 'Normal');
+    assert.doesNotMatch(await status(page), /Normals/);
+  },
+
+  async 'a film of a morph is the tool\u2019s'({ page }) {
+    await openModel(page, 'creature');
+    await expand(page, 'Morph');
+    await page.getByLabel('The shape to morph into').setInputFiles(`${models}creature-ball.obj`);
+    await idle(page);
+    const film = await download(page, 'Download film');
+    tool('morph', `${models}creature.obj`, `${models}creature-ball.obj`, '-o', join(scratch, 'film.glb'));
+    const [ours, theirs] = [film, join(scratch, 'film.glb')].map(readGlb);
+    const shape = ({ json }) => json.accessors.map(({ count, type, componentType }) => ({ count, type, componentType }));
+    assert.deepEqual(shape(ours), shape(theirs));
+    assert.deepEqual(ours.json.animations, theirs.json.animations);
+    assert.ok(!ours.floats.some((number, i) => Math.abs(number - theirs.floats[i]) > 1e-5), 'the same numbers');
+  },
+
   async 'memory is used again: ten times open and close'({ page }) {
     const large = join(scratch, 'large.obj');
     tool('subdivide', `${models}creature.obj`, '--levels', '3', '-o', large);
@@ -333,8 +402,7 @@ const tasks = {
       await page.waitForFunction(() => globalThis.studio.app.store.state.past.at(-1)?.label.startsWith('move'));
       await idle(page);
       assert.notDeepEqual(await points(page), before);
-      await send('touchStart', [120, 200], [220, 200]);
-      await send('touchEnd');
+      await Promise.all([send('touchStart', [120, 200], [220, 200]), send('touchEnd')]); // a tap, however busy the page is
       await page.waitForFunction(() => globalThis.studio.app.store.state.future.length > 0);
       await idle(page);
       assert.deepEqual(await points(page), before);

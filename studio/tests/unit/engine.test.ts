@@ -6,9 +6,10 @@ import { Engine } from '../../src/engine/engine';
 import type { EngineModule } from '../../src/engine/module';
 import type { SurfaceWishes } from '../../src/engine/types';
 import { EngineError } from '../../src/engine/types';
+import { putRows } from '../../src/view/rows';
 
 const root = new URL('../../../', import.meta.url);
-const PLAIN: SurfaceWishes = { scheme: 0, boundary: 2, alpha: 0, interpolate: true, fair: false, smoothing: 0, levels: 2 };
+const PLAIN: SurfaceWishes = { scheme: 0, boundary: 2, alpha: 0, interpolate: true, fair: false, smoothing: 0, levels: 2, normals: new Float64Array() };
 let engine: Engine;
 
 function model(name: string): Uint8Array {
@@ -16,6 +17,18 @@ function model(name: string): Uint8Array {
 }
 function text(content: string): Uint8Array {
   return new TextEncoder().encode(content);
+}
+/** A torus of quads as OBJ, `around` by `across`. */
+function torus(around: number, across: number): Uint8Array {
+  const lines: string[] = [];
+  for (let i = 0; i < around; ++i)
+    for (let j = 0; j < across; ++j) {
+      const [u, v] = [(2 * Math.PI * i) / around, (2 * Math.PI * j) / across];
+      lines.push(`v ${(3 + Math.cos(v)) * Math.cos(u)} ${(3 + Math.cos(v)) * Math.sin(u)} ${Math.sin(v)}`);
+    }
+  const vertex = (i: number, j: number) => (i % around) * across + (j % across) + 1;
+  for (let i = 0; i < around; ++i) for (let j = 0; j < across; ++j) lines.push(`f ${vertex(i, j)} ${vertex(i + 1, j)} ${vertex(i + 1, j + 1)} ${vertex(i, j + 1)}`);
+  return text(lines.join('\n'));
 }
 function distance(a: ArrayLike<number>, i: number, b: ArrayLike<number>, j: number): number {
   return Math.hypot(...[0, 1, 2].map((k) => (a[3 * i + k] ?? NaN) - (b[3 * j + k] ?? NaN)));
@@ -35,17 +48,59 @@ describe('interpolation', () => {
     for (let i = 0; i < points.length / 3; ++i) expect(distance(drawing.points, i, points, i)).toBeLessThan(3e-7 * diagonal);
   });
 
-  it('follows a dragged point to where a whole solve of the moved points leads', () => {
-    const { points } = engine.open('tripod.obj', model('tripod'));
-    engine.show(PLAIN);
+  it.each(['tripod', 'torus-fine'])('follows a dragged point of %s to where a whole solve of the moved points leads', (name) => {
+    const { points } = name === 'tripod' ? engine.open('tripod.obj', model(name)) : engine.open('fine.obj', torus(100, 80));
+    const { drawing } = engine.show(PLAIN);
     const to = [points[30] ?? 0, points[31] ?? 0, (points[32] ?? 0) + 0.1] as const;
-    engine.move(10, [to[0], to[1], to[2] + 0.2], 0);
-    const moved = engine.move(10, to, 0);
+    for (const [count, z] of [to[2] + 0.2, to[2]].entries()) {
+      const { vertices, moved, ...change } = engine.move(10, [to[0], to[1], z], 0);
+      expect(vertices === undefined).toBe(name === 'tripod' || count === 0); // of a small mesh, and at first, all
+      expect(putRows(drawing.points, change.points, vertices)).toBe(true);
+      expect(putRows(drawing.normals, change.normals, vertices)).toBe(true);
+      expect(putRows(drawing.control, change.control, moved)).toBe(true);
+    }
     points.set(to, 30);
     engine.setPoints(points);
     const solved = engine.show(PLAIN).drawing;
-    for (let i = 0; i < solved.control.length; ++i) expect(Math.abs((moved.control[i] ?? NaN) - (solved.control[i] ?? NaN))).toBeLessThan(1e-6);
-    expect(distance(moved.points, 10, to, 0)).toBeLessThan(1e-6);
+    for (const part of ['control', 'points', 'normals'] as const)
+      for (let i = 0; i < solved[part].length; ++i) expect(Math.abs((drawing[part][i] ?? NaN) - (solved[part][i] ?? NaN))).toBeLessThan(1e-6);
+    expect(distance(drawing.points, 10, to, 0)).toBeLessThan(1e-6);
+  });
+});
+
+describe('wanted normals', () => {
+  it.each([false, true])('are those of the surface, fair: %s', (fair) => {
+    engine.open('creature.obj', model('creature'));
+    const before = engine.show({ ...PLAIN, fair }).drawing;
+    const vertex = 40;
+    const wanted = [0.6, 0, 0.8];
+    expect(distance(before.normals, vertex, wanted, 0)).toBeGreaterThan(0.1);
+    const { report, drawing } = engine.show({ ...PLAIN, fair, normals: Float64Array.of(vertex, 3, 0, 4) });
+    expect(report.worstAngle).toBeLessThan(1e-8);
+    expect(distance(drawing.normals, vertex, wanted, 0)).toBeLessThan(1e-5);
+    expect(distance(drawing.points, vertex, before.points, vertex)).toBeLessThan(1e-5);
+    // and in the file
+    engine.open('normals.obj', engine.write('obj', -1).bytes);
+    expect(distance(engine.show({ ...PLAIN, interpolate: false }).drawing.normals, vertex, wanted, 0)).toBeLessThan(1e-5);
+  });
+});
+
+describe('GLB', () => {
+  it('is read again', () => {
+    engine.open('tripod.obj', model('tripod'));
+    engine.show(PLAIN);
+    const { bytes, losses } = engine.write('glb', 2);
+    expect(losses).toEqual(['polygons (cut into triangles)']);
+    const { points } = engine.open('tripod.glb', bytes);
+    expect(points.length).toBeGreaterThan(1000);
+  });
+  it('holds a film', () => {
+    engine.open('creature.obj', model('creature'));
+    engine.startMorph('creature-ball.obj', model('creature-ball'), PLAIN);
+    const film = engine.morphFilm(2);
+    const text = new TextDecoder().decode(film.subarray(0, 20_000));
+    expect(text.startsWith('glTF')).toBe(true);
+    expect(text).toContain('"animations"');
   });
 });
 
@@ -145,9 +200,11 @@ describe('operations', () => {
   });
   it('a morph begins and ends at its shapes', () => {
     const { points } = engine.open('creature.obj', model('creature'));
-    const end = engine.openSecond('creature-ball.obj', model('creature-ball'));
-    expect(engine.morph(points, PLAIN, 0)).toEqual(points);
-    expect(engine.morph(points, PLAIN, 1)).toEqual(end.points);
+    engine.startMorph('creature-ball.obj', model('creature-ball'), PLAIN);
+    expect(engine.morphAt(0)).toEqual(points);
+    const half = engine.morphAt(0.5);
+    expect(engine.morphAt(1)).toEqual(engine.open('creature-ball.obj', model('creature-ball')).points);
+    expect(half).not.toEqual(points);
   });
   it('compares the iterations of the papers with ours', () => {
     engine.open('tripod.obj', model('tripod'));
