@@ -9,6 +9,8 @@ interface Screen {
   x: number;
   y: number;
   depth: number;
+  /** From the eye, in the mesh's unit. */
+  distance: number;
 }
 
 export class Picker {
@@ -19,8 +21,9 @@ export class Picker {
 
   private project(x: number, y: number, z: number): Screen {
     const { clientWidth, clientHeight } = this.stage.canvas;
+    const distance = -this.at.set(x, y, z).applyMatrix4(this.stage.camera.matrixWorldInverse).z;
     this.at.set(x, y, z).project(this.stage.camera);
-    return { x: ((this.at.x + 1) / 2) * clientWidth, y: ((1 - this.at.y) / 2) * clientHeight, depth: this.at.z };
+    return { distance, x: ((this.at.x + 1) / 2) * clientWidth, y: ((1 - this.at.y) / 2) * clientHeight, depth: this.at.z };
   }
 
   private ray(x: number, y: number): THREE.Raycaster {
@@ -39,7 +42,7 @@ export class Picker {
   /** True where the surface hides a point: something is clearly nearer to the eye. */
   private hidden(screen: Screen): boolean {
     const there = this.surface(screen.x, screen.y);
-    return there !== null && this.project(...there).depth < screen.depth - 0.002;
+    return there !== null && this.project(...there).distance < screen.distance - this.stage.slack;
   }
 
   private near(points: Float64Array, x: number, y: number): { vertex: number; away: number; screen: Screen }[] {

@@ -2,12 +2,13 @@
 import { BufferAttribute, BufferGeometry, Color, Points, ShaderMaterial } from 'three';
 
 const VERTEX = `
-  uniform float size; uniform float picked; attribute float number; varying float vPicked;
+  uniform float size; uniform float lift; uniform float picked; attribute float number; varying float vPicked;
   void main() {
     vPicked = abs(number - picked) < 0.5 ? 1.0 : 0.0;
     vec4 view = modelViewMatrix * vec4(position, 1.0);
     gl_Position = projectionMatrix * view;
-    gl_Position.z -= 0.0015 * gl_Position.w;
+    vec4 nearer = projectionMatrix * vec4(view.xy, view.z + lift, 1.0);
+    gl_Position.z = gl_Position.w * nearer.z / nearer.w;
     gl_PointSize = size * (1.0 + 0.7 * vPicked);
   }`;
 const FRAGMENT = `
@@ -28,7 +29,7 @@ export class PointsLayer {
     vertexShader: VERTEX,
     fragmentShader: FRAGMENT,
     transparent: true,
-    uniforms: { size: { value: 9 }, picked: { value: -1 }, color: { value: new Color() }, pickedColor: { value: new Color() }, rim: { value: new Color() } },
+    uniforms: { size: { value: 9 }, lift: { value: 0 }, picked: { value: -1 }, color: { value: new Color() }, pickedColor: { value: new Color() }, rim: { value: new Color() } },
   });
 
   constructor() {
@@ -41,6 +42,11 @@ export class PointsLayer {
     const uniform = this.material.uniforms[name];
     if (!uniform) throw new Error(`no uniform ${name}`);
     return uniform;
+  }
+
+  /** So far the discs stand before what they lie on, which would cut them otherwise. */
+  set lift(distance: number) {
+    this.uniform('lift').value = distance;
   }
 
   colors(color: string, picked: string, rim: string): void {

@@ -25,6 +25,8 @@ const ROOM = 1.24;
 const FOOT = 0.13;
 const FEW_POINTS = 30;
 const BESIDE = 2;
+/** About the size of a point's disc. */
+const SLACK = 0.02;
 
 export class Stage {
   readonly canvas: HTMLCanvasElement;
@@ -85,6 +87,11 @@ export class Stage {
     this.controls.enabled = enabled;
   }
 
+  /** A length that counts as nothing. */
+  get slack(): number {
+    return SLACK * this.sphere.radius;
+  }
+
   touch(): void {
     this.dirty = true;
   }
@@ -127,6 +134,7 @@ export class Stage {
       farthest = Math.max(farthest, at.set(points[i] ?? 0, points[i + 1] ?? 0, points[i + 2] ?? 0).distanceToSquared(this.sphere.center));
     this.sphere.radius = Math.sqrt(farthest);
     if (!(this.sphere.radius > 0)) this.sphere.radius = 1;
+    this.points.lift = this.slack;
     for (const camera of [this.perspective, this.orthographic]) camera.up.set(...this.up);
     this.perspective.near = this.sphere.radius / 100;
     this.perspective.far = this.sphere.radius * 100;
