@@ -40,7 +40,10 @@ EMSCRIPTEN_BINDINGS(batten) {
       .function("pull", &Elastic::pull)
       .function("release", &Elastic::release)
       .function("step", &Elastic::step)
-      .function("control", &Elastic::control);
+      .function("pin", &Elastic::pin)
+      .function("refine", &Elastic::refine)
+      .function("control", &Elastic::control)
+      .function("controlFile", &Elastic::control_file);
   class_<ShapeMorph>("ShapeMorph")
       .smart_ptr<std::shared_ptr<ShapeMorph>>("ShapeMorphPointer")
       .function("at", &ShapeMorph::at)

@@ -5,7 +5,9 @@
 #include "batten/dynamics/pressure.h"
 #include "batten/dynamics/spring.h"
 #include "batten/mesh/topology.h"
+#include "batten/mesh/up_axis.h"
 #include "batten/nearest/nearest_point.h"
+#include "batten/refine/refined_mesh.h"
 
 namespace batten::studio {
 namespace {
@@ -38,8 +40,8 @@ std::shared_ptr<const Force> soft_hold(const ElasticSurface& body) {
 }  // namespace
 
 Elastic::Elastic(const std::shared_ptr<const MeshFile>& file, const Scheme& scheme, const ElasticWishes& wishes)
-    : topology_(file->mesh()), scheme_(scheme), wishes_(wishes) {
-  const Points& points = file->mesh().points;
+    : mesh_(file->mesh()), up_(file->up()), topology_(mesh_), scheme_(scheme), wishes_(wishes) {
+  const Points& points = mesh_.points;
   const double diagonal = bounding_diagonal(points);
   if (!(diagonal > 0.0)) throw Error(ErrorCode::BadArgument, "all points are at one place: there is no body");
   scale_ = diagonal;
@@ -49,11 +51,12 @@ Elastic::Elastic(const std::shared_ptr<const MeshFile>& file, const Scheme& sche
   options.material = {{1.0}, {wishes.damping}, {wishes.tension}, {wishes.rigidity}};
   body_.emplace(topology_, scheme_, rest, options);
   if (wishes.pressure != 0.0) lasting_.push_back(std::make_shared<Pressure>(*body_, wishes.pressure));
+  const Eigen::Vector3d up = up_frame(up_).up;
   if (wishes.gravity != 0.0)
-    lasting_.push_back(std::make_shared<Gravity>(*body_, Eigen::Vector3d(0.0, 0.0, -wishes.gravity)));
+    lasting_.push_back(std::make_shared<Gravity>(*body_, Eigen::Vector3d(-wishes.gravity * up)));
   if (wishes.floor) {
-    const Eigen::Vector3d foot(0.0, 0.0, rest.col(2).minCoeff() - kFloorGap);
-    lasting_.push_back(std::make_shared<Contact>(*body_, plane_obstacle(foot, {0.0, 0.0, 1.0})));
+    const Eigen::Vector3d foot = ((rest * up).minCoeff() - kFloorGap) * up;
+    lasting_.push_back(std::make_shared<Contact>(*body_, plane_obstacle(foot, up)));
   }
   if (wishes.hold_boundary && has_boundary(topology_)) {
     supports_ = hold_boundary(*body_);
@@ -113,10 +116,47 @@ val Elastic::step(int count) {
   });
 }
 
-val Elastic::control() const {
+val Elastic::pin(double x, double y, double z) {
   return guarded([&] {
-    const Points points = (state_.positions * scale_).rowwise() + centre_;
-    return typed_array(points);
+    const NearestPoints nearest(body_->patches(), state_.positions);
+    const NearestPoint found = nearest.nearest(inward(x, y, z));
+    supports_.pins.push_back({found.place, stay_at(found.point)});
+    rebuild();
+    const Eigen::Vector3d point = found.point * scale_ + centre_.transpose();
+    val result = val::object();
+    result.set("point", typed_array(point.data(), 3));
+    return result;
+  });
+}
+
+val Elastic::refine() {
+  return guarded([&] {
+    const ElasticSurface child = body_->refined();
+    for (std::shared_ptr<const Force>& force : lasting_) force = force->refined(*body_, child);
+    if (spring_) spring_ = spring_->refined(*body_, child);
+    supports_ = refined_supports(*body_, supports_, state_);
+    mesh_ = refine_mesh(topology_, scheme_, mesh_, 1).mesh;
+    state_ = refined_state(*body_, state_);
+    topology_ = child.topology();
+    scheme_ = child.patches().scheme();
+    body_.emplace(child);
+    rebuild();
+    return val::null();
+  });
+}
+
+Points Elastic::outward() const { return (state_.positions * scale_).rowwise() + centre_; }
+
+val Elastic::control() const {
+  return guarded([&] { return typed_array(outward()); });
+}
+
+val Elastic::control_file() const {
+  return guarded([&] {
+    Mesh mesh = mesh_;
+    mesh.points = outward();
+    state_scheme(scheme_, mesh);
+    return val(std::make_shared<MeshFile>(std::move(mesh), up_));
   });
 }
 

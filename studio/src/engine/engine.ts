@@ -26,6 +26,7 @@ export class Engine {
   private morph: ShapeMorph | null = null;
   private surface: Surface | null = null;
   private elastic: Elastic | null = null;
+  private elasticWishes: ElasticWishes | null = null;
   private sculpted: Surface | null = null;
 
   constructor(
@@ -229,12 +230,40 @@ export class Engine {
     const control = got(this.shown.controlFile());
     try {
       this.elastic = got(this.module.makeElastic(control, wishes));
-      const plain: SurfaceWishes = { scheme: wishes.scheme, boundary: wishes.boundary, alpha: 0, interpolate: false, fair: false, smoothing: 0, levels: 0, normals: new Float64Array() };
-      this.sculpted = got(this.module.makeSurface(control, plain, null));
-      return { report: this.sculpted.report(), drawing: got(this.sculpted.drawing()) };
+      this.elasticWishes = wishes;
+      return this.showSculpture(control);
     } finally {
       control.delete();
     }
+  }
+  private showSculpture(control: MeshFile): Shown {
+    const { scheme, boundary } = this.elasticWishes ?? { scheme: 0, boundary: 0 };
+    const plain: SurfaceWishes = { scheme, boundary, alpha: 0, interpolate: false, fair: false, smoothing: 0, levels: 0, normals: new Float64Array() };
+    const surface = got(this.module.makeSurface(control, plain, null));
+    this.sculpted?.delete();
+    this.sculpted = surface;
+    return { report: surface.report(), drawing: got(surface.drawing()) };
+  }
+  /** Goes on with four times the control points. */
+  refineSculpture(): Shown {
+    if (!this.elastic) throw new Error('nothing is being sculpted');
+    got(this.elastic.refine());
+    const control = got(this.elastic.controlFile());
+    try {
+      return this.showSculpture(control);
+    } finally {
+      control.delete();
+    }
+  }
+  /** Holds a place of the body: where it is. */
+  pin(at: Vec3): Float64Array {
+    if (!this.elastic) throw new Error('nothing is being sculpted');
+    return got(this.elastic.pin(at[0], at[1], at[2])).point;
+  }
+  /** The body as a control mesh becomes the mesh. */
+  takeSculpture(): Contents {
+    if (!this.elastic) throw new Error('nothing is being sculpted');
+    return this.take(got(this.elastic.controlFile()));
   }
   grab(at: Vec3, stiffness: number): void {
     if (this.elastic) got(this.elastic.grab(at[0], at[1], at[2], stiffness));

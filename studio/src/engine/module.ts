@@ -40,7 +40,10 @@ export interface Elastic extends Handle {
   pull(x: number, y: number, z: number): Result<null>;
   release(): Result<null>;
   step(count: number): Result<{ time: number; kinetic: number; elastic: number }>;
+  pin(x: number, y: number, z: number): Result<{ point: Float64Array }>;
+  refine(): Result<null>;
   control(): Result<Float64Array>;
+  controlFile(): Result<MeshFile>;
 }
 export interface ShapeMorph extends Handle {
   at(time: number): Result<Float64Array>;

@@ -31,7 +31,7 @@ function renamed(name: string, word: string, extension: string): string {
 }
 
 /** A new mesh that the engine has made becomes the work. */
-async function take(app: App, label: string, word: string, contents: Contents): Promise<void> {
+export async function takeMesh(app: App, label: string, word: string, contents: Contents): Promise<void> {
   const { work } = app;
   if (!work) return;
   const bytes = await app.engine.run((engine) => engine.writeMesh());
@@ -47,7 +47,7 @@ export async function repairMesh(app: App): Promise<void> {
   await app.inOrder(async () => {
     const { changes, contents } = await app.withEngine<{ changes: string[]; contents: Contents }>((engine) => engine.repair(0), work);
     told = changes.length > 0 ? `Repaired: ${changes.join(' ')}` : 'There is nothing to repair.';
-    if (changes.length > 0) await take(app, 'repair', 'repaired', contents);
+    if (changes.length > 0) await takeMesh(app, 'repair', 'repaired', contents);
   });
   await app.idle();
   if (told) app.face.say(told);
@@ -60,7 +60,7 @@ export async function fitSurface(app: App, vertices: number, tolerance: number):
   await app.inOrder(async () => {
     const fitted = await app.withEngine<{ contents: Contents; rms: number; max: number; outliers: number }>((engine) => engine.fit(vertices, tolerance), work);
     told = `Fitted with ${fitted.contents.points.length / 3} vertices: rms distance ${short(fitted.rms)}, max ${short(fitted.max)}.`;
-    await take(app, 'fit a surface', 'fit', fitted.contents);
+    await takeMesh(app, 'fit a surface', 'fit', fitted.contents);
   });
   await app.idle();
   if (told) app.face.say(told);

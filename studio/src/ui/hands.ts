@@ -40,6 +40,10 @@ export class Hands {
     const { x, y } = this.place(event);
     if (this.sculptor.running) {
       const at = this.picker.surface(x, y);
+      if (at && event.altKey) {
+        this.sculptor.pin(at);
+        return;
+      }
       if (at) this.hold(event);
       if (at) this.sculptor.grab(at);
       this.down = { x, y, at: performance.now(), vertex: null, start: at, moved: false };

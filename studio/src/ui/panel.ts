@@ -228,7 +228,8 @@ export class Panel {
     const leave = this.needs(button('Leave', () => void sculptor.end(false)), () => sculptor.running);
     const pause = this.needs(button('Pause', () => void (sculptor.paused = !sculptor.paused)), () => sculptor.running);
     const step = this.needs(button('Step', () => void sculptor.step()), () => sculptor.running);
-    return section('Sculpt', false, h('p', { class: 'note' }, 'An elastic surface in motion: pull at it with mouse or finger. Lengths count in sizes of the body.'), h('div', { class: 'buttons' }, start, keep, leave, pause, step), part('Tension', 'tension', 1, 500, 1), bending.element, part('Damping', 'damping', 0, 20, 0.5), part('Pressure', 'pressure', -50, 200, 5), part('Weight', 'gravity', 0, 10, 0.5), floor.element, hold.element);
+    const refine = this.needs(button('Refine', () => sculptor.refine(), { title: 'The same surface with four times the control points: it can bend more finely' }), () => sculptor.running);
+    return section('Sculpt', false, h('p', { class: 'note' }, 'An elastic surface in motion: pull at it with mouse or finger, hold a place with Alt click. Lengths count in sizes of the body.'), h('div', { class: 'buttons' }, start, keep, leave, pause, step, refine), part('Tension', 'tension', 1, 500, 1), bending.element, part('Damping', 'damping', 0, 20, 0.5), part('Pressure', 'pressure', -50, 200, 5), part('Weight', 'gravity', 0, 10, 0.5), floor.element, hold.element);
   }
 
   /** Another material is another body. */

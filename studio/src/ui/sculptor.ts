@@ -3,6 +3,8 @@ import type { App } from '../app';
 import type { ElasticWishes, Shape, Vec3 } from '../engine/types';
 import { wishesOf } from '../state/work';
 import type { Shown } from '../engine/engine';
+import { takeMesh } from './actions';
+import { counted } from './text';
 
 export type Material = Omit<ElasticWishes, 'scheme' | 'boundary'>;
 
@@ -14,6 +16,9 @@ export class Sculptor {
   /** Milliseconds of the last step in the engine. */
   lastMs = 0;
   onChange: () => void = () => undefined;
+  /** The body has more control points than the work. */
+  private refined = false;
+  private pins: number[] = [];
   private waiting: (() => Promise<void>)[] = [];
 
   constructor(private readonly app: App) {}
@@ -30,6 +35,8 @@ export class Sculptor {
     this.app.stage.drawPoints(new Float64Array());
     this.running = true;
     this.paused = false;
+    this.refined = false;
+    this.pins = [];
     this.onChange();
     this.app.face.say('Sculpting: pull at the surface. Keep takes the shape over.');
     void this.loop();
@@ -69,6 +76,24 @@ export class Sculptor {
     this.then(() => this.app.engine.run((engine) => engine.release()));
   }
 
+  /** Holds a place of the surface. */
+  pin(at: Vec3): void {
+    this.then(async () => {
+      this.pins.push(...(await this.app.engine.run((engine) => engine.pin(at))));
+      this.app.stage.drawPoints(Float64Array.from(this.pins));
+      this.app.face.say(`${counted(this.pins.length / 3, 'place is', 'places are')} held.`);
+    });
+  }
+  /** The same surface with four times the control points: it can bend more finely. */
+  refine(): void {
+    this.then(async () => {
+      const { report, drawing } = await this.app.engine.run((engine) => engine.refineSculpture());
+      this.refined = true;
+      this.app.stage.draw(drawing);
+      this.app.face.say(`Refined: ${counted(report.vertices, 'control point', 'control points')}.`);
+    });
+  }
+
   /** Something else is shown now. */
   abandon(): void {
     if (!this.running) return;
@@ -81,6 +106,11 @@ export class Sculptor {
     if (!this.running) return;
     this.running = false;
     const { work } = this.app;
+    if (keep && work && this.refined) {
+      await this.app.inOrder(async () => takeMesh(this.app, 'sculpt', 'sculpted', await this.app.engine.run((engine) => engine.takeSculpture())));
+      this.onChange();
+      return;
+    }
     const points = keep && work ? await this.app.engine.run((engine) => engine.sculptedPoints(work.settings.interpolate)) : null;
     await this.app.engine.run((engine) => engine.endSculpting());
     if (points && work) this.app.store.run('sculpt', { kind: 'all-points', points });

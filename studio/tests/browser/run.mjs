@@ -241,6 +241,28 @@ const tasks = {
     assert.ok(moved > 1e-3, `moved ${moved}`);
   },
 
+  async 'an elastic surface is held, refined and kept'({ page }) {
+    await openModel(page, 'tripod');
+    await expand(page, 'Sculpt');
+    await press(page, 'Sculpt');
+    const middle = await page.evaluate(() => {
+      const box = globalThis.studio.app.stage.canvas.getBoundingClientRect();
+      return { x: box.left + box.width / 2, y: box.top + box.height / 2 - 60 };
+    });
+    await page.keyboard.down('Alt');
+    await page.mouse.click(middle.x, middle.y);
+    await page.keyboard.up('Alt');
+    await page.waitForFunction(() => document.querySelector('[role=status]').textContent.includes('1 place is held'));
+    await press(page, 'Refine');
+    await page.waitForFunction(() => document.querySelector('[role=status]').textContent.includes('Refined: 842 control points'));
+    await press(page, 'Keep');
+    await page.waitForFunction(() => globalThis.studio.app.store.state.past.at(-1)?.label === 'sculpt');
+    await idle(page);
+    assert.match(await status(page), /842 vertices, 840 faces/);
+    await press(page, 'Undo');
+    assert.match(await status(page), /212 vertices, 210 faces/);
+  },
+
   async 'denoise and bands'({ page }) {
     await openModel(page, 'creature');
     const before = await points(page);
