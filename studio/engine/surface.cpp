@@ -20,6 +20,14 @@ int drawn_levels(const Topology& topology) {
   return levels;
 }
 
+/// At most so many as memory has room for.
+int asked_levels(const Topology& topology, int levels) {
+  constexpr double kMostFaces = 4e6;
+  int most = 1;
+  for (double faces = 16.0 * topology.face_count(); faces < kMostFaces; faces *= 4.0) ++most;
+  return std::min(levels, most);
+}
+
 std::vector<std::uint32_t> triangles_of(const Tessellator& tessellator) {
   const Index size = tessellator.face_size();
   Buffer<Index> faces(static_cast<std::size_t>(tessellator.face_count()) * static_cast<std::size_t>(size));
@@ -110,7 +118,7 @@ void Surface::prepare() {
   if (tessellator_ && vertices == tessellator_->vertex_count() &&
       patches_->topology().vertex_count() == control_.rows())
     return;
-  levels_ = wishes_.levels > 0 ? wishes_.levels : drawn_levels(topology_);
+  levels_ = wishes_.levels > 0 ? asked_levels(topology_, wishes_.levels) : drawn_levels(topology_);
   patches_.emplace(topology_, scheme_);
   tessellator_.emplace(*patches_, levels_);
   limit_.reset();

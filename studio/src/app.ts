@@ -1,6 +1,6 @@
 /** The page without its controls: work, engine and picture, kept in step. */
 import { EngineClient } from './engine/client';
-import type { Drawing, Field, Measure, Moved, Preset, Report, SchemeWord, Vec3 } from './engine/types';
+import type { Drawing, Field, Measure, Moved, Preset, Report, SchemeWord, SurfaceWishes, Vec3 } from './engine/types';
 import { PRESETS, SCHEMES } from './engine/types';
 import type { Kept } from './state/store';
 import { Store } from './state/store';
@@ -58,6 +58,8 @@ export class App {
   coloring: Coloring = 'plain';
   /** The surface of the points as a plain control mesh, shown beside. */
   beside: 'none' | SchemeWord = 'none';
+  /** Steps of refinement that are drawn; 0: as many as suit the screen. */
+  detail = 0;
   /** Of textures. */
   seed = 1;
   picked: number | null = null;
@@ -161,6 +163,10 @@ export class App {
     await this.inOrder(() => this.show());
   }
 
+  private drawn(work: Work): SurfaceWishes {
+    return { ...wishesOf(work), levels: this.detail };
+  }
+
   private async show(): Promise<void> {
     const { work } = this;
     if (work === this.shown && work) return;
@@ -197,7 +203,7 @@ export class App {
     }
     await this.sync(work);
     try {
-      const { report, drawing } = await this.engine.run((engine) => engine.show(wishesOf(work)));
+      const { report, drawing } = await this.engine.run((engine) => engine.show(this.drawn(work)));
       this.report = report;
       this.drawing = drawing;
       this.shown = work;
@@ -226,7 +232,7 @@ export class App {
       return;
     }
     const scheme = SCHEMES.indexOf(this.beside);
-    const { report, drawing } = await this.engine.run((engine) => engine.beside({ ...wishesOf(work), scheme, alpha: 0, interpolate: false, fair: false }));
+    const { report, drawing } = await this.engine.run((engine) => engine.beside({ ...this.drawn(work), scheme, alpha: 0, interpolate: false, fair: false }));
     this.stage.drawBeside(drawing);
     const left = farthest(work.points, drawing.points);
     this.face.say(`Beside it: ${report.scheme} of the points as control mesh. It leaves the points by up to ${short(left)}, ${short((100 * left) / work.diagonal)} % of the size.`);
@@ -249,7 +255,7 @@ export class App {
     if (!work) return;
     const shown = { ...work, ...other };
     await this.sync(shown);
-    const { drawing } = await this.engine.run((engine) => engine.show(wishesOf(shown)));
+    const { drawing } = await this.engine.run((engine) => engine.show(this.drawn(shown)));
     this.stage.draw(drawing);
     this.stage.drawPoints(shown.points);
     this.shown = null;

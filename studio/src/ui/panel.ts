@@ -166,9 +166,16 @@ export class Panel {
     });
     seed.element.hidden = true;
     const measured = fileButton('Measure points', 'Points to measure from the surface', (name, bytes) => void app.measureDistances({ name, bytes }));
+    const detail = slider('Detail', { min: 0, max: 6, step: 1, value: 0 }, {
+      change: (value) => {
+        app.detail = value;
+        app.redraw();
+      },
+    });
+    detail.element.title = 'Steps of refinement that are drawn; 0: as many as suit the screen';
     const flat = tick('Without perspective', false, (checked) => void (stage.isFlat = checked));
     const views = (['front', 'right', 'top', 'home'] as const).map((view) => button(view[0]?.toUpperCase() + view.slice(1), () => stage.look(view)));
-    return section('Look', true, coloring.element, beside.element, seed.element, this.command((work) => (isTexture(app.coloring) ? textureCommand(work, app.coloring, app.seed) : null)), show(stage.control.group, 'Control mesh'), show(stage.points.object, 'Points'), flat.element, h('div', { class: 'buttons' }, ...views), h('div', { class: 'buttons' }, measured.element));
+    return section('Look', true, coloring.element, beside.element, seed.element, this.command((work) => (isTexture(app.coloring) ? textureCommand(work, app.coloring, app.seed) : null)), show(stage.control.group, 'Control mesh'), show(stage.points.object, 'Points'), flat.element, detail.element, h('div', { class: 'buttons' }, ...views), h('div', { class: 'buttons' }, measured.element));
   }
 
   private pointSection(): HTMLElement {
