@@ -7,109 +7,147 @@ namespace batten {
 
 namespace {
 
-using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-void gather(std::span<const Index> vertices, ConstValuesRef from, ShapeScratch& scratch) {
-  scratch.points.resize(static_cast<Eigen::Index>(vertices.size()), 3);
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    scratch.points.row(static_cast<Eigen::Index>(i)) = from.row(vertices[i]);
-  }
-}
-
-/// Calls visit(weight, jets of the place, rows) for each place with a tangent plane: the weight is the area's. N: the
-/// points, or Eigen::Dynamic. J: the rows of a jet.
+/// Calls visit(weights of the places' areas, weights of the jets by points, jet, rows) for each place of a batch. N:
+/// the points, or 0 where `count` tells; J: the rows of a jet. The weight is 0 where there is no tangent plane.
 template <int N, int J, typename Visit>
-void visit_places(ShapeEnergyKind kind, const JetTable& table, ShapeScratch& scratch, const Visit& visit) {
-  using Jets = Eigen::Map<const Eigen::Matrix<double, J, N, Eigen::RowMajor>>;
-  const Eigen::Index count = table.jets.cols();
-  const Eigen::Map<const Eigen::Matrix<double, N, 3, Eigen::RowMajor>> points(scratch.points.data(), count, 3);
-  scratch.jet.resize(J, 3);
+void visit_places(ShapeEnergyKind kind, const JetTable& table, const Double4* points, const Visit& visit) {
+  const std::ptrdiff_t count = N > 0 ? N : table.jets.cols();
+  ShapeJet jet;
+  ShapeRows rows;
   for (std::size_t p = 0; p < table.weights.size(); ++p) {
-    const Jets jets(table.jets.data() + static_cast<Eigen::Index>(p) * J * count, J, count);
-    scratch.jet.template topRows<J>().noalias() = jets.lazyProduct(points);
-    const double area = shape_rows(kind, scratch.jet, scratch.rows);
-    if (area > 0.0) visit(table.weights[p] * area, jets, scratch.rows.template leftCols<J>());
+    const double* const weights = table.jets.data() + static_cast<std::ptrdiff_t>(p) * J * count;
+    for (int r = 0; r < J; ++r) {
+      FourVectors sum{};
+      for (std::ptrdiff_t i = 0; i < count; ++i)
+        for (int c = 0; c < 3; ++c) sum[c] += weights[r * count + i] * points[3 * i + c];
+      jet[r] = sum;
+    }
+    const Double4 area = shape_rows(kind, jet, rows);
+    visit(table.weights[p] * area, weights, jet, rows);
   }
 }
 
-/// Calls body.operator()<N, J>() for the sizes of a table's elements.
-template <int J, typename Body>
+/// Calls body.operator()<N, J, R>() for the sizes of a table's elements; R: the squares of an integrand.
+template <int J, int R, typename Body>
 void with_points(const JetTable& table, const Body& body) {
-  if (table.jets.cols() == kQuadPatchSize) return body.template operator()<kQuadPatchSize, J>();
-  if (table.jets.cols() == kTrianglePatchSize) return body.template operator()<kTrianglePatchSize, J>();
-  body.template operator()<Eigen::Dynamic, J>();
+  if (table.jets.cols() == kQuadPatchSize) return body.template operator()<kQuadPatchSize, J, R>();
+  if (table.jets.cols() == kTrianglePatchSize) return body.template operator()<kTrianglePatchSize, J, R>();
+  body.template operator()<0, J, R>();
 }
 template <typename Body>
 void with_sizes(ShapeEnergyKind kind, const JetTable& table, const Body& body) {
   switch (kind) {
     case ShapeEnergyKind::Stretch:
-      return with_points<2>(table, body);
+      return with_points<2, 2>(table, body);
     case ShapeEnergyKind::Bending:
-      return with_points<5>(table, body);
+      return with_points<5, 3>(table, body);
     case ShapeEnergyKind::Variation:
-      return with_points<9>(table, body);
+      return with_points<9, 4>(table, body);
   }
 }
 
-/// Adds the squares of a place's linear forms, four rows of `count` numbers: F^T F.
-template <int N>
-inline void add_squares(const double* f, Eigen::Index size, double* matrix) {
-  const Eigen::Index count = N > 0 ? N : size;
-  const double* const f1 = f + count;
-  const double* const f2 = f1 + count;
-  const double* const f3 = f2 + count;
-  for (Eigen::Index i = 0; i < count; ++i) {
-    double* const row = matrix + i * count;
-    for (Eigen::Index j = 0; j < count; ++j) {
-      row[j] += (f[i] * f[j] + f1[i] * f1[j]) + (f2[i] * f2[j] + f3[i] * f3[j]);
+/// forms: R linear forms of the points, one after the other. Adds their squares to the lower half of a matrix.
+template <int N, int R>
+void add_squares(const Double4* forms, std::ptrdiff_t size, Double4* half) {
+  const std::ptrdiff_t count = N > 0 ? N : size;
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    for (std::ptrdiff_t j = 0; j <= i; ++j, ++half) {
+      Double4 sum = *half;
+      for (int r = 0; r < R; ++r) sum += forms[r * count + i] * forms[r * count + j];
+      *half = sum;
     }
   }
 }
 
-}  // namespace
-
-void shape_matrix(ShapeEnergyKind kind, const JetTable& table, std::span<const Index> vertices,
-                  ConstValuesRef reference, ShapeScratch& scratch, double* matrix) {
-  gather(vertices, reference, scratch);
-  const Eigen::Index count = table.jets.cols();
-  const int rows = shape_row_count(kind);
-  std::fill(matrix, matrix + count * count, 0.0);
-  scratch.forms.setZero(kMostShapeRows, count);
-  with_sizes(kind, table, [&]<int N, int J>() {
-    using Forms = Eigen::Map<Eigen::Matrix<double, kMostShapeRows, N, Eigen::RowMajor>>;
-    Forms forms(scratch.forms.data(), kMostShapeRows, count);
-    visit_places<N, J>(kind, table, scratch, [&](double weight, const auto& jets, auto by_jet) {
-      by_jet *= std::sqrt(weight);
-      forms.topRows(rows).noalias() = by_jet.lazyProduct(jets);
-      add_squares<N>(forms.data(), count, matrix);
-    });
-  });
+/// A place's forms of its derivatives: rows * jet.
+template <int J, int R>
+std::array<FourVectors, R> form_values(const ShapeRows& rows, const ShapeJet& jet) {
+  std::array<FourVectors, R> values{};
+  for (int r = 0; r < R; ++r)
+    for (int j = 0; j < J; ++j)
+      for (int c = 0; c < 3; ++c) values[r][c] += rows[r][j] * jet[j][c];
+  return values;
 }
 
-double shape_energy_of(ShapeEnergyKind kind, const JetTable& table, std::span<const Index> vertices,
-                       ConstValuesRef control, ShapeScratch& scratch) {
-  gather(vertices, control, scratch);
-  double sum = 0.0;
-  with_sizes(kind, table, [&]<int N, int J>() {
-    visit_places<N, J>(kind, table, scratch, [&](double weight, const auto& /*jets*/, const auto& by_jet) {
-      sum += weight * by_jet.lazyProduct(scratch.jet.template topRows<J>()).squaredNorm();
-    });
+}  // namespace
+
+const JetTable& ShapeElements::gather(const ShapeBatch& batch, ShapeScratch& scratch) const {
+  const std::size_t count = elements_.vertices(batch.first).size();
+  scratch.points.resize(std::max(scratch.points.size(), 3 * count));
+  for (int lane = 0; lane < 4; ++lane) {
+    const std::span<const Index> vertices = elements_.vertices(batch.first + std::min(lane, batch.count - 1));
+    for (std::size_t i = 0; i < count; ++i)
+      for (int c = 0; c < 3; ++c) scratch.points[3 * i + c][lane] = reference_(vertices[i], c);
+  }
+  return tables_[elements_.kind(batch.first)];
+}
+
+void ShapeElements::matrices(const ShapeBatch& batch, ShapeScratch& scratch, const ShapeTargets& matrix) const {
+  const JetTable& table = gather(batch, scratch);
+  const std::ptrdiff_t count = table.jets.cols();
+  const auto half = static_cast<std::size_t>(count * (count + 1) / 2);
+  scratch.sums.assign(half, Double4{});
+  scratch.forms.resize(static_cast<std::size_t>(kMostShapeRows * count));
+  with_sizes(kind_, table, [&]<int N, int J, int R>() {
+    const std::ptrdiff_t size = N > 0 ? N : count;
+    Double4* const forms = scratch.forms.data();
+    visit_places<N, J>(kind_, table, scratch.points.data(),
+                       [&](Double4 weight, const double* weights, const ShapeJet& /*jet*/, ShapeRows& rows) {
+                         const Double4 scale = square_roots(weight);
+                         for (int r = 0; r < R; ++r) {
+                           for (int j = 0; j < J; ++j) rows[r][j] *= scale;
+                           for (std::ptrdiff_t i = 0; i < size; ++i) {
+                             Double4 sum{};
+                             for (int j = 0; j < J; ++j) sum += rows[r][j] * weights[j * size + i];
+                             forms[r * size + i] = sum;
+                           }
+                         }
+                         add_squares<N, R>(forms, size, scratch.sums.data());
+                       });
+  });
+  for (int lane = 0; lane < batch.count; ++lane) {
+    const Double4* sum = scratch.sums.data();
+    for (std::ptrdiff_t i = 0; i < count; ++i)
+      for (std::ptrdiff_t j = 0; j <= i; ++j, ++sum)
+        matrix[lane][i * count + j] = matrix[lane][j * count + i] = (*sum)[lane];
+  }
+}
+
+Double4 ShapeElements::energies(const ShapeBatch& batch, ShapeScratch& scratch) const {
+  const JetTable& table = gather(batch, scratch);
+  Double4 sum{};
+  with_sizes(kind_, table, [&]<int N, int J, int R>() {
+    visit_places<N, J>(kind_, table, scratch.points.data(),
+                       [&](Double4 weight, const double* /*weights*/, const ShapeJet& jet, const ShapeRows& rows) {
+                         Double4 squares{};
+                         for (const FourVectors& value : form_values<J, R>(rows, jet))
+                           for (int c = 0; c < 3; ++c) squares += value[c] * value[c];
+                         sum += weight * squares;
+                       });
   });
   return sum;
 }
 
-void shape_gradient(ShapeEnergyKind kind, const JetTable& table, std::span<const Index> vertices,
-                    ConstValuesRef reference, ShapeScratch& scratch, double* gradient) {
-  gather(vertices, reference, scratch);
-  Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>> sum(
-      gradient, static_cast<Eigen::Index>(vertices.size()), 3);
-  with_sizes(kind, table, [&]<int N, int J>() {
-    visit_places<N, J>(kind, table, scratch, [&](double weight, const auto& jets, const auto& by_jet) {
-      const auto values = by_jet.lazyProduct(scratch.jet.template topRows<J>()).eval();
-      const auto by_derivatives = (weight * by_jet.transpose().lazyProduct(values)).eval();
-      sum += jets.transpose().lazyProduct(by_derivatives);
-    });
+void ShapeElements::gradients(const ShapeBatch& batch, ShapeScratch& scratch, const ShapeTargets& gradient) const {
+  const JetTable& table = gather(batch, scratch);
+  const std::ptrdiff_t count = table.jets.cols();
+  scratch.sums.assign(static_cast<std::size_t>(3 * count), Double4{});
+  with_sizes(kind_, table, [&]<int N, int J, int R>() {
+    const std::ptrdiff_t size = N > 0 ? N : count;
+    visit_places<N, J>(kind_, table, scratch.points.data(),
+                       [&](Double4 weight, const double* weights, const ShapeJet& jet, const ShapeRows& rows) {
+                         const std::array<FourVectors, R> values = form_values<J, R>(rows, jet);
+                         for (int j = 0; j < J; ++j) {
+                           FourVectors pull{};
+                           for (int r = 0; r < R; ++r)
+                             for (int c = 0; c < 3; ++c) pull[c] += weight * rows[r][j] * values[r][c];
+                           for (std::ptrdiff_t i = 0; i < size; ++i)
+                             for (int c = 0; c < 3; ++c) scratch.sums[3 * i + c] += weights[j * size + i] * pull[c];
+                         }
+                       });
   });
+  for (int lane = 0; lane < batch.count; ++lane)
+    for (std::ptrdiff_t i = 0; i < 3 * count; ++i) gradient[lane][i] += scratch.sums[i][lane];
 }
 
 }  // namespace batten

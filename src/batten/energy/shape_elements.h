@@ -1,32 +1,64 @@
-/// \file The matrix of a shape energy on one face, and how it is added to the whole.
+/// \file The matrices of a shape energy on single faces, four faces at a time.
 #pragma once
-#include <Eigen/SparseCore>
+#include <array>
 #include <span>
 
+#include "batten/buffer.h"
+#include "batten/energy/face_elements.h"
 #include "batten/energy/jet_tables.h"
 #include "batten/energy/shape_rows.h"
 #include "batten/types.h"
 
 namespace batten {
 
-/// What an element needs room for; one for each thread.
-struct ShapeScratch {
-  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> points;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> forms;
-  ShapeJet jet;
-  ShapeRows rows;
+/// Elements of one kind that follow each other, in the lanes of vectors. Lanes beyond `count` repeat the last one.
+struct ShapeBatch {
+  Index first;
+  int count;  ///< 1 to 4
 };
 
-/// matrix: n^2 numbers for n vertices, row by row; symmetric to the last bit.
-void shape_matrix(ShapeEnergyKind kind, const JetTable& table, std::span<const Index> vertices,
-                  ConstValuesRef reference, ShapeScratch& scratch, double* matrix);
+/// Calls visit(batch) for elements begin to end.
+template <typename Visit>
+void for_shape_batches(const FaceElements& elements, Index begin, Index end, const Visit& visit) {
+  while (begin < end) {
+    int count = 1;
+    while (count < 4 && begin + count < end && elements.kind(begin + count) == elements.kind(begin)) ++count;
+    visit(ShapeBatch{begin, count});
+    begin += count;
+  }
+}
 
-/// The energy of the element's surface in its own lengths.
-double shape_energy_of(ShapeEnergyKind kind, const JetTable& table, std::span<const Index> vertices,
-                       ConstValuesRef control, ShapeScratch& scratch);
+/// What a batch needs room for; one for each thread.
+struct ShapeScratch {
+  Buffer<Double4> points;
+  Buffer<Double4> forms;
+  Buffer<Double4> sums;
+};
 
-/// Adds the matrix times the reference itself to `gradient`, three numbers a vertex, without the matrix.
-void shape_gradient(ShapeEnergyKind kind, const JetTable& table, std::span<const Index> vertices,
-                    ConstValuesRef reference, ShapeScratch& scratch, double* gradient);
+/// Where the numbers of each element of a batch go; those beyond its count are not looked at.
+using ShapeTargets = std::array<double*, 4>;
+
+/// The lengths that a face has in `reference`, and its surface, by tables of the elements' kinds. Refers to what it is given.
+class ShapeElements {
+ public:
+  ShapeElements(ShapeEnergyKind kind, const FaceElements& elements, const std::vector<JetTable>& tables,
+                ConstValuesRef reference)
+      : kind_(kind), elements_(elements), tables_(tables), reference_(reference) {}
+
+  /// matrix: n^2 numbers for n vertices, row by row; symmetric to the last bit.
+  void matrices(const ShapeBatch& batch, ShapeScratch& scratch, const ShapeTargets& matrix) const;
+  /// The energy of each element's surface in its own lengths.
+  Double4 energies(const ShapeBatch& batch, ShapeScratch& scratch) const;
+  /// Adds the matrix times the reference itself to `gradient`, three numbers a vertex, without the matrix.
+  void gradients(const ShapeBatch& batch, ShapeScratch& scratch, const ShapeTargets& gradient) const;
+
+ private:
+  const JetTable& gather(const ShapeBatch& batch, ShapeScratch& scratch) const;
+
+  ShapeEnergyKind kind_;
+  const FaceElements& elements_;
+  const std::vector<JetTable>& tables_;
+  ConstValuesRef reference_;
+};
 
 }  // namespace batten

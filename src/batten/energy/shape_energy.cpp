@@ -112,18 +112,25 @@ void ShapeEnergy::Parts::find_matrices(Index begin, Index end, ConstValuesRef re
     matrices.starts[e - begin + 1] = matrices.starts[e - begin] + size * size;
   }
   matrices.numbers.resize(std::max(matrices.numbers.size(), matrices.starts.back()));
+  const ShapeElements shapes(kind, elements, tables, reference);
   parallel_for(
       end - begin,
       [&](std::ptrdiff_t first, std::ptrdiff_t last) {
         ShapeScratch scratch;
-        for (auto i = static_cast<Index>(first); i < static_cast<Index>(last); ++i) {
-          double* const first_number = matrices.numbers.data() + matrices.starts[i];
-          double* const end_number = matrices.numbers.data() + matrices.starts[i + 1];
-          shape_matrix(kind, tables[elements.kind(begin + i)], elements.vertices(begin + i), reference, scratch,
-                       first_number);
-          const double by = factor(begin + i, face_factors);
-          for (double* number = first_number; by != 1.0 && number < end_number; ++number) *number *= by;
-        }
+        const auto numbers_of = [&](Index element) {
+          return matrices.numbers.data() + matrices.starts[element - begin];
+        };
+        for_shape_batches(elements, begin + static_cast<Index>(first), begin + static_cast<Index>(last),
+                          [&](const ShapeBatch& batch) {
+                            ShapeTargets targets{};
+                            for (int i = 0; i < batch.count; ++i) targets[i] = numbers_of(batch.first + i);
+                            shapes.matrices(batch, scratch, targets);
+                            for (int i = 0; i < batch.count; ++i) {
+                              const double by = factor(batch.first + i, face_factors);
+                              double* const end_number = numbers_of(batch.first + i + 1);
+                              for (double* n = targets[i]; by != 1.0 && n < end_number; ++n) *n *= by;
+                            }
+                          });
       },
       kElementBlock);
 }
@@ -187,15 +194,17 @@ ShapeEnergy::Matrix ShapeEnergy::matrix(ConstValuesRef reference, std::span<cons
 
 double ShapeEnergy::energy(ConstValuesRef control) const {
   parts_->require_base_points(control);
+  const ShapeElements shapes(parts_->kind, parts_->elements, parts_->tables, control);
   return parallel_reduce(
       parts_->elements.count(), 0.0,
       [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
         ShapeScratch scratch;
         double sum = 0.0;
-        for (auto e = static_cast<Index>(begin); e < static_cast<Index>(end); ++e) {
-          sum += shape_energy_of(parts_->kind, parts_->tables[parts_->elements.kind(e)], parts_->elements.vertices(e),
-                                 control, scratch);
-        }
+        for_shape_batches(parts_->elements, static_cast<Index>(begin), static_cast<Index>(end),
+                          [&](const ShapeBatch& batch) {
+                            const Double4 energies = shapes.energies(batch, scratch);
+                            for (int i = 0; i < batch.count; ++i) sum += energies[i];
+                          });
         return sum;
       },
       [](double a, double b) { return a + b; });
@@ -207,17 +216,23 @@ Buffer<double> ShapeEnergy::element_gradients(const Points& reference, std::span
   parts_->require_base_points(reference);
   parts_->require_factors(face_factors);
   const FaceElements& elements = parts_->elements;
+  const ConstValuesRef points = reference;  // which outlives what refers to it
+  const ShapeElements shapes(parts_->kind, elements, parts_->tables, points);
   Buffer<double> gradients(3 * elements.vertices().size(), 0.0);
   parallel_for(
       elements.count(),
       [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
         ShapeScratch scratch;
-        for (auto e = static_cast<Index>(begin); e < static_cast<Index>(end); ++e) {
-          shape_gradient(parts_->kind, parts_->tables[elements.kind(e)], elements.vertices(e), reference, scratch,
-                         gradients.data() + 3 * elements.start(e));
-          const double by = parts_->factor(e, face_factors);
-          for (std::size_t i = 3 * elements.start(e); i < 3 * elements.start(e + 1); ++i) gradients[i] *= by;
-        }
+        const auto gradients_of = [&](Index element) { return gradients.data() + 3 * elements.start(element); };
+        for_shape_batches(elements, static_cast<Index>(begin), static_cast<Index>(end), [&](const ShapeBatch& batch) {
+          ShapeTargets targets{};
+          for (int i = 0; i < batch.count; ++i) targets[i] = gradients_of(batch.first + i);
+          shapes.gradients(batch, scratch, targets);
+          for (int i = 0; i < batch.count; ++i) {
+            const double by = parts_->factor(batch.first + i, face_factors);
+            for (double* n = targets[i]; n < gradients_of(batch.first + i + 1); ++n) *n *= by;
+          }
+        });
       },
       kElementBlock);
   return gradients;
