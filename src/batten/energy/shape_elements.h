@@ -38,7 +38,8 @@ struct ShapeScratch {
 /// Where the numbers of each element of a batch go; those beyond its count are not looked at.
 using ShapeTargets = std::array<double*, 4>;
 
-/// The lengths that a face has in `reference`, and its surface, by tables of the elements' kinds. Refers to what it is given.
+/// The lengths that a face has in `reference`, and its surface, by tables of the elements' kinds. Refers to what it is
+/// given.
 class ShapeElements {
  public:
   ShapeElements(ShapeEnergyKind kind, const FaceElements& elements, const std::vector<JetTable>& tables,
