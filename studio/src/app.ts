@@ -5,9 +5,9 @@ import { PRESETS, SCHEMES } from './engine/types';
 import type { Kept } from './state/store';
 import { Store } from './state/store';
 import type { Settings, Source, Work } from './state/work';
-import { faceCount, isCloud, PLAIN, vertexCount, wantedNormals, wishesOf, withNormal, workOf } from './state/work';
+import { isCloud, PLAIN, vertexCount, wantedNormals, wishesOf, withNormal, workOf } from './state/work';
 import type { Stage } from './view/stage';
-import { counted, short } from './ui/text';
+import { counted, short, sizeOf } from './ui/text';
 import { wireframe } from './view/wireframe';
 
 export type Coloring = 'plain' | 'zebra' | Measure | Preset;
@@ -239,7 +239,7 @@ export class App {
   }
 
   private resultText(work: Work, report: Report): string {
-    const size = `${counted(vertexCount(work), 'vertex', 'vertices')}, ${counted(faceCount(work), 'face', 'faces')}`;
+    const size = sizeOf(work);
     if (report.maxError === undefined) {
       const how = report.scheme.includes('Butterfly') ? `${report.scheme}, which passes through the points` : `${report.scheme} surface of this control mesh`;
       return `${work.source.name}: ${size}. ${how}.`;

@@ -5,7 +5,7 @@ import { edgeLoop, sharpnessOf, withCreases } from '../state/creases';
 import { linkOf } from '../state/link';
 import type { Source } from '../state/work';
 import { isCloud, PLAIN, vertexCount, wantedNormals, wishesOf, workOf } from '../state/work';
-import { short } from './text';
+import { short, sizeOf } from './text';
 
 /** The sharpness that new creases get; the panel's slider sets it. */
 export const creaseSharpness = { value: 10 };
@@ -48,6 +48,7 @@ export async function repairMesh(app: App): Promise<void> {
     const { changes, contents } = await app.withEngine<{ changes: string[]; contents: Contents }>((engine) => engine.repair(0), work);
     told = changes.length > 0 ? `Repaired: ${changes.join(' ')}` : 'There is nothing to repair.';
     if (changes.length > 0) await takeMesh(app, 'repair', 'repaired', contents);
+    if (app.work) told += ` ${sizeOf(app.work)}.`;
   });
   await app.idle();
   if (told) app.face.say(told);

@@ -1,4 +1,6 @@
 /** Numbers as people read them. */
+import type { Work } from '../state/work';
+import { faceCount, vertexCount } from '../state/work';
 
 export function grouped(count: number): string {
   return count.toLocaleString('en-US');
@@ -8,14 +10,16 @@ export function counted(count: number, one: string, many: string): string {
   return `${grouped(count)} ${count === 1 ? one : many}`;
 }
 
-/** Three digits; powers of ten with a superscript. */
+export function sizeOf(work: Work): string {
+  return `${counted(vertexCount(work), 'vertex', 'vertices')}, ${counted(faceCount(work), 'face', 'faces')}`;
+}
+
+/** Four digits, or two and a power of ten; as the tool writes numbers, so that they can be copied and read aloud. */
 export function short(value: number): string {
   if (!Number.isFinite(value)) return 'none';
-  if (value === 0) return '0';
   const size = Math.abs(value);
-  if (size >= 1e-3 && size < 1e6) return String(Number(value.toPrecision(4))).replace('-', '\u2212');
-  const [digits = '', exponent = '0'] = value.toExponential(1).split('e');
-  return `${digits.replace('-', '\u2212')} \u00d7 10${raised(Number(exponent))}`;
+  if (value === 0 || (size >= 1e-3 && size < 1e6)) return String(Number(value.toPrecision(4)));
+  return value.toExponential(1);
 }
 
 function raised(exponent: number): string {

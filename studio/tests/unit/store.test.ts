@@ -96,8 +96,8 @@ describe('words', () => {
     expect(commandFor(work, 400)).toContain(`'it'\\''s mine.obj'`);
   });
   it('show small numbers as powers of ten', () => {
-    expect(short(3.14e-10)).toBe('3.1 \u00d7 10\u207b\u00b9\u2070');
-    expect(short(-0.5)).toBe('\u22120.5');
+    expect(short(3.14e-10)).toBe('3.1e-10');
+    expect(short(-0.5)).toBe('-0.5');
   });
   it('leave alpha out where the scheme has none', () => {
     const work = { ...grid(), settings: { ...PLAIN, scheme: 'loop', alpha: 0.5 } as const };
