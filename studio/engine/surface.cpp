@@ -6,26 +6,19 @@
 #include "batten/interpolate/fair_mesh.h"
 #include "batten/interpolate/local_normals.h"
 #include "batten/mesh/vertex_fields.h"
+#include "batten/tessellate/surface_mesh.h"
 
 namespace batten::studio {
 namespace {
 
-/// About as many faces as a screen shows, and as software draws in time.
-constexpr double kDrawnFaces = 120'000.0;
-constexpr int kMostLevels = 4;
-
-int drawn_levels(const Topology& topology) {
-  int levels = 1;
-  for (double faces = 16.0 * topology.face_count(); faces < kDrawnFaces && levels < kMostLevels; faces *= 4.0) ++levels;
-  return levels;
-}
-
-/// At most so many as memory has room for.
-int asked_levels(const Topology& topology, int levels) {
-  constexpr double kMostFaces = 4e6;
-  int most = 1;
-  for (double faces = 16.0 * topology.face_count(); faces < kMostFaces; faces *= 4.0) ++most;
-  return std::min(levels, most);
+/// Steps of the mesh that is drawn, where `asked` is 0 as suits the screen.
+int drawn_levels(const Topology& topology, int asked) {
+  constexpr double kOnScreen = 120'000.0;  // and software draws them in time
+  constexpr int kMostOnScreen = 4;
+  constexpr double kInMemory = 4e6;
+  const int levels = asked > 0 ? levels_within(topology, kInMemory, asked)
+                               : levels_within(topology, kOnScreen, kMostOnScreen);
+  return std::max(1, levels);
 }
 
 std::vector<std::uint32_t> triangles_of(const Tessellator& tessellator) {
@@ -118,7 +111,7 @@ void Surface::prepare() {
   if (tessellator_ && vertices == tessellator_->vertex_count() &&
       patches_->topology().vertex_count() == control_.rows())
     return;
-  levels_ = wishes_.levels > 0 ? asked_levels(topology_, wishes_.levels) : drawn_levels(topology_);
+  levels_ = drawn_levels(topology_, wishes_.levels);
   patches_.emplace(topology_, scheme_);
   tessellator_.emplace(*patches_, levels_);
   limit_.reset();

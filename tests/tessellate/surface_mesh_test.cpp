@@ -173,5 +173,14 @@ TEST(SurfaceMesh, HolesAreLeftOutAndGroupsMoveUp) {
   EXPECT_EQ(surface.attributes[0].corner_rows.size(), 32U);
 }
 
+TEST(SurfaceMesh, HasAsManyLevelsAsFacesAllow) {
+  const Topology topology(cube());
+  EXPECT_EQ(levels_within(topology, 6 * 64.0, 5), 3);
+  EXPECT_EQ(levels_within(topology, 6 * 64.0 - 1.0, 5), 2);
+  EXPECT_EQ(levels_within(topology, 1e9, 5), 5);
+  EXPECT_EQ(levels_within(topology, 1.0, 5), 0);
+  EXPECT_EQ(picture_levels(topology), 5);
+}
+
 }  // namespace
 }  // namespace batten

@@ -211,16 +211,16 @@ Mesh surface_mesh(const Topology& topology, const Scheme& scheme, const Mesh& co
   return mesh;
 }
 
+int levels_within(const Topology& topology, double faces, int most) {
+  int levels = 0;
+  for (double next = 4.0 * topology.face_count(); levels < most && next <= faces; next *= 4.0) ++levels;
+  return levels;
+}
+
 int picture_levels(const Topology& topology) {
   constexpr double kFaces = 4e5;
   constexpr int kMost = 5;
-  double faces = std::max<Index>(topology.face_count(), 1);
-  int levels = 0;
-  while (levels < kMost && faces * 4.0 <= kFaces) {
-    faces *= 4.0;
-    ++levels;
-  }
-  return levels;
+  return levels_within(topology, kFaces, kMost);
 }
 
 }  // namespace batten

@@ -21,6 +21,9 @@ namespace batten {
 Mesh surface_mesh(const Topology& topology, const Scheme& scheme, const Mesh& control, int levels,
                   const Progress& progress = {});
 
+/// As many levels as leave a control mesh with at most so many faces, but no more than `most`.
+int levels_within(const Topology& topology, double faces, int most);
+
 /// The levels that make some 400,000 faces of a control mesh, at most 5: enough for a picture of the whole surface.
 int picture_levels(const Topology& topology);
 
