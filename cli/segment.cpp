@@ -1,6 +1,4 @@
 /// The verb segment: from a label of a volume to a subdivision surface.
-#include "batten/volume/segment.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,9 +10,7 @@
 #include "batten/quantile.h"
 #include "batten/tessellate/surface_mesh.h"
 #include "batten/volume/inside_volume.h"
-#include "batten/volume/label_mask.h"
-#include "batten/volume/points_mask.h"
-#include "batten/volume/segment_measures.h"
+#include "batten/volume/segment_volume.h"
 #include "batten/volume/slice.h"
 #include "batten/volume/volume_file.h"
 #include "cli/input_output.h"
@@ -28,15 +24,6 @@
 
 namespace batten::cli {
 namespace {
-
-/// What a run has found.
-struct Found {
-  Segmentation surface;
-  SurfaceMeasures measures;
-  std::optional<MaskAgreement> agreement;
-  EdgeStrength edges;
-  Points points;
-};
 
 Volume read_input_volume(const std::string& path) {
 #ifdef BATTEN_WITH_VOLUMES
@@ -121,11 +108,12 @@ nlohmann::ordered_json distances_json(const DistanceSummary& summary) {
   return {{"mean", summary.mean}, {"rms", summary.rms}, {"percentile_95", summary.most_of_95}, {"max", summary.max}};
 }
 
-nlohmann::ordered_json report_json(const SegmentArguments& arguments, const Found& found) {
+nlohmann::ordered_json report_json(const SegmentArguments& arguments, const SegmentRequest& request,
+                                   const SegmentResult& found) {
   const Segmentation& result = found.surface;
   nlohmann::ordered_json json = {{"mask", arguments.mask},
                                  {"labels", arguments.labels},
-                                 {"points", found.points.rows()},
+                                 {"points", request.points.rows()},
                                  {"space", arguments.space == WorldSpace::Ras ? "RAS" : "LPS"},
                                  {"vertices", result.topology.vertex_count()},
                                  {"faces", result.topology.face_count()},
@@ -144,17 +132,32 @@ nlohmann::ordered_json report_json(const SegmentArguments& arguments, const Foun
     json["border_to_surface"] = distances_json(found.agreement->to_surface);
     json["surface_to_border"] = distances_json(found.agreement->to_border);
   }
+  if (found.region) {
+    json["seed"] = arguments.seed;
+    json["region"] = {
+        {"volume", found.region->volume}, {"open", found.region->open}, {"edges_beyond", found.region->edges_beyond}};
+  }
   json["edge_strength"] = {
       {"mean", found.edges.mean}, {"best_within_two_voxels", found.edges.best}, {"share", found.edges.share()}};
   json["peak_memory_bytes"] = peak_memory_bytes();
   return json;
 }
 
-Table table_of(const Found& found, const VolumeGrid& grid) {
+/// What grew from the seed, and whether it leaks.
+std::string region_text(const SeedRegion& region) {
+  constexpr double kOpen = 0.06;
+  std::string text = fmt::format("the region has {:.1f} mm^3", region.volume);
+  if (region.open > kOpen)
+    text += fmt::format("; {:.0f} % of its border has no edge: it may leak", 100.0 * region.open);
+  return text;
+}
+
+Table table_of(const SegmentRequest& request, const SegmentResult& found, const VolumeGrid& grid) {
   const Segmentation& result = found.surface;
   Table table;
   table.add("image", grid_text(grid));
-  if (found.points.rows() > 0) table.add("points", count_of(found.points.rows(), "point", "points"));
+  if (request.points.rows() > 0) table.add("points", count_of(request.points.rows(), "point", "points"));
+  if (found.region) table.add("seed", region_text(*found.region));
   table.add("surface",
             mesh_text(result.topology) +
                 fmt::format("; genus {}, {}", result.genus, count_of(result.components, "component", "components")));
@@ -174,33 +177,29 @@ Table table_of(const Found& found, const VolumeGrid& grid) {
   return table;
 }
 
-/// From points or labels to the surface, and its measures.
-Found segmented(const SegmentArguments& arguments, const Volume& image, const Volume& labels, Job& job) {
-  constexpr double kAlpha = 2.0;  // of the smoothing before edges are measured, 1/mm
-  SegmentOptions options;
-  options.scheme.kind = arguments.common.scheme.value_or(SchemeKind::CatmullClark);
-  options.vertices = arguments.vertices.value_or(options.vertices);
-  options.genus = arguments.genus;
-  options.smoothing = arguments.smoothing;
-  const bool with_points = !arguments.points.empty();
-  Points points(0, 3);
-  if (with_points)
-    points = in_space(read_file(arguments.points, "", arguments.common.quiet, &job.notes).points, arguments.space);
-  std::optional<Volume> mask;
-  if (!with_points || !arguments.mask.empty())
-    mask = label_mask(arguments.mask.empty() ? image : labels, arguments.labels);
-  ProgressBar bar("segmenting", arguments.common.quiet);
-  const bool drawn = with_points || arguments.edges;
-  Segmentation surface = segment_mask(with_points ? points_mask(points) : *mask, options,
-                                      progress_within(bar.callback(), 0.0, drawn ? 0.5 : 1.0));
-  if (drawn) surface = segment_image(surface, image, points, {}, progress_within(bar.callback(), 0.5, 1.0));
-  job.stages.finish("segment");
-  SurfaceMeasures measures = measure_surface(surface.topology, surface.scheme, surface.mesh);
-  std::optional<MaskAgreement> agreement;
-  if (mask) agreement = compare_with_mask(measures.fine, *mask);
-  const EdgeStrength edges = edge_strength(measures.fine, image, kAlpha);
-  job.stages.finish("measure");
-  return {std::move(surface), std::move(measures), agreement, edges, std::move(points)};
+SegmentRequest request_of(const SegmentArguments& arguments, Volume labels, Job& job) {
+  const auto read_in_space = [&](const std::string& path) {
+    Mesh mesh = read_file(path, "", arguments.common.quiet, &job.notes);
+    mesh.points = in_space(std::move(mesh.points), arguments.space);
+    return mesh;
+  };
+  SegmentRequest request;
+  request.surface.scheme.kind = arguments.common.scheme.value_or(SchemeKind::CatmullClark);
+  request.surface.vertices = arguments.vertices.value_or(request.surface.vertices);
+  request.surface.genus = arguments.genus;
+  request.surface.smoothing = arguments.smoothing;
+  if (!arguments.mask.empty()) request.labels = std::move(labels);
+  request.label = arguments.labels;
+  if (!arguments.points.empty()) request.points = read_in_space(arguments.points).points;
+  if (!arguments.seed.empty()) {
+    Points seed(1, 3);
+    seed << arguments.seed[0], arguments.seed[1], arguments.seed[2];
+    request.seed = in_space(seed, arguments.space).row(0).transpose();
+  }
+  if (!arguments.numbers.empty()) request.seed_options.range = NumberRange{arguments.numbers[0], arguments.numbers[1]};
+  if (!arguments.start.empty()) request.start = read_in_space(arguments.start);
+  request.edges = arguments.edges;
+  return request;
 }
 
 }  // namespace
@@ -215,7 +214,10 @@ int run_segment(const SegmentArguments& arguments) {
         if (!arguments.mask.empty()) labels = read_input_volume(arguments.mask);
       },
       UpAxis::Z);
-  const Found found = segmented(arguments, image, labels, job);
+  const SegmentRequest request = request_of(arguments, std::move(labels), job);
+  ProgressBar bar("segmenting", arguments.common.quiet);
+  const SegmentResult found = segment_volume(image, request, bar.callback());
+  job.stages.finish("segment");
   const std::string written = write_in_space(arguments, found.surface, job);
   write_inside(arguments, found.measures.fine, image.grid);
   draw_overlay(arguments, found.measures.fine, image);
@@ -225,14 +227,14 @@ int run_segment(const SegmentArguments& arguments) {
     subject.topology = found.surface.topology;
     subject.scheme = found.surface.scheme;
     subject.draw_control = true;
-    subject.markers = found.points;
+    subject.markers = request.points;
     draw(subject, arguments.picture, job);
     job.stages.finish("picture");
   }
-  Table table = table_of(found, image.grid);
+  Table table = table_of(request, found, image.grid);
   if (!written.empty()) table.add("written", written);
   job.print(table);
-  job.report(report_json(arguments, found));
+  job.report(report_json(arguments, request, found));
   return 0;
 }
 

@@ -12,10 +12,13 @@ namespace batten::cli {
 struct SegmentArguments {
   CommonArguments common;  ///< input: the volume
   PictureArguments picture;
-  std::string mask;            ///< a volume of labels; empty: the input
-  std::vector<double> labels;  ///< empty: all but 0
-  std::string points;          ///< on the surface; empty: none
-  bool edges = false;          ///< draw the surface of the labels to the image's edges
+  std::string mask;             ///< a volume of labels; empty: the input
+  std::vector<double> labels;   ///< empty: all but 0
+  std::string points;           ///< on the surface; empty: none
+  std::vector<double> seed;     ///< x, y, z in the part; empty: none
+  std::vector<double> numbers;  ///< least and greatest number of the part around the seed; empty: found
+  std::string start;            ///< a mesh to start from; empty: none
+  bool edges = false;           ///< draw the surface of the labels to the image's edges
   std::optional<Index> vertices;
   std::optional<Index> genus;
   double smoothing = 0.15;  ///< in voxels

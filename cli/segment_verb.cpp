@@ -5,7 +5,8 @@ namespace batten::cli {
 
 void add_segment(CLI::App& app, SegmentArguments& arguments, int& status) {
   CLI::App& verb = *app.add_subcommand(
-      "segment", "from a label of a volume, or points on a part of it, to a small, smooth control mesh");
+      "segment",
+      "from a label of a volume, or points on a part of it or a seed in it, to a small, smooth control mesh");
   verb.add_option("VOLUME", arguments.common.input,
                   "the image: .nii .nii.gz .nrrd .nhdr .mha .mhd, or a folder of DICOM slices")
       ->required()
@@ -19,6 +20,18 @@ void add_segment(CLI::App& app, SegmentArguments& arguments, int& status) {
   add_input_file(verb, "--points", arguments.points,
                  "points on the border of the part, in the world of --space: the surface starts from them and is drawn "
                  "to them and to the image's edges; .xyz or a mesh. Labels are then only compared with");
+  verb.add_option("--seed", arguments.seed,
+                  "a place in the part, in mm of the world of --space: the surface starts from what a front reaches "
+                  "from there before it leaks through the image's edges, and is drawn to them")
+      ->delimiter(',')
+      ->expected(3)
+      ->option_text("X,Y,Z");
+  verb.add_option("--numbers", arguments.numbers, "with --seed: the least and the greatest number in the part")
+      ->delimiter(',')
+      ->expected(2)
+      ->option_text("LOW,HIGH");
+  add_input_file(verb, "--start", arguments.start,
+                 "a closed control mesh in the world of --space, which is drawn to the image's edges");
   verb.add_flag("--edges", arguments.edges, "draw the surface of the labels to the image's edges, too");
   add_common(verb, arguments.common);
   add_output(verb, arguments.common);
@@ -42,10 +55,19 @@ void add_segment(CLI::App& app, SegmentArguments& arguments, int& status) {
                   {".nii", ".gz", ".nrrd", ".mha"});
   verb.add_flag("--parts", arguments.parts, "with --inside: write the share of each voxel that is inside");
   add_picture(verb, arguments.picture);
+  const std::vector<std::string> starts{"--points", "--seed", "--start"};
+  for (const std::string& start : starts) {
+    for (const std::string& other : starts) {
+      if (start != other) verb.get_option(start)->excludes(verb.get_option(other));
+    }
+  }
+  for (const char* option : {"--vertices", "--genus", "--smoothing", "--scheme"})
+    verb.get_option("--start")->excludes(verb.get_option(option));
   set_run(verb, arguments.common, status, [&] {
     require_output(verb, {"--picture", "--report", "--overlay", "--inside"});
     require_with(verb, {"--parts"}, {"--inside"});
     require_with(verb, {"--edges"}, {"--mask"});
+    require_with(verb, {"--numbers"}, {"--seed"});
     return run_segment(arguments);
   });
 }

@@ -107,6 +107,7 @@
 #include "batten/volume/recursive_filter.h"
 #include "batten/volume/segment.h"
 #include "batten/volume/segment_measures.h"
+#include "batten/volume/segment_volume.h"
 #include "batten/volume/slice.h"
 #include "batten/volume/volume.h"
 

@@ -63,6 +63,31 @@ TEST_F(SegmentTool, WritesLpsWhereAsked) {
   EXPECT_NE(text_of(path("b.ply")).find("comment SPACE=LPS\n"), std::string::npos);
 }
 
+TEST_F(SegmentTool, GrowsFromASeedInTheWorldThatIsAsked) {
+  ASSERT_EQ(run("segment ball.nrrd --seed=-10,-20,30 --vertices 100 -o a.obj --report r.json").status, 0);
+  const auto report = nlohmann::json::parse(text_of(path("r.json")));
+  EXPECT_NEAR(report.at("volume").get<double>(), 7238.2, 0.1 * 7238.2) << "a ball of 12 mm";
+  EXPECT_GT(report.at("region").at("volume"), 4000.0);
+  ASSERT_EQ(run("segment ball.nrrd --seed=10,20,30 --space lps --vertices 100 -o b.obj").status, 0);
+  const auto middle = [&](const char* name) {
+    const Points points = read_mesh(path(name)).points;
+    return Eigen::RowVector3d(0.5 * (points.colwise().minCoeff() + points.colwise().maxCoeff()));
+  };
+  EXPECT_LT((middle("a.obj") - Eigen::RowVector3d(-10, -20, 30)).norm(), 1.5);
+  EXPECT_LT((middle("b.obj") - Eigen::RowVector3d(10, 20, 30)).norm(), 1.5);
+}
+
+TEST_F(SegmentTool, StartsFromAMesh) {
+  ASSERT_EQ(run("segment ball.nrrd --vertices 100 -o a.obj").status, 0);
+  const Outcome result = run("segment ball.nrrd --start a.obj -o b.obj");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(read_mesh(path("b.obj")).face_vertices, read_mesh(path("a.obj")).face_vertices);
+  EXPECT_NE(run("segment ball.nrrd --start a.obj --space lps -o c.obj").err.find("other world"), std::string::npos);
+  EXPECT_EQ(run("segment ball.nrrd --start a.obj --vertices 50 -o c.obj").status, 2);
+  EXPECT_EQ(run("segment ball.nrrd --seed=0,0,0 --start a.obj -o c.obj").status, 2);
+  EXPECT_EQ(run("segment ball.nrrd --numbers 1,2 -o c.obj").status, 2);
+}
+
 TEST_F(SegmentTool, SaysWhatIsWrong) {
   EXPECT_EQ(run("segment ball.nrrd").status, 2) << "nothing to write";
   const Outcome absent = run("segment ball.nrrd --label 71 -o a.obj");

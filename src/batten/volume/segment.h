@@ -17,6 +17,7 @@ struct SegmentOptions {
   std::optional<Index> genus;  ///< demanded; without, the one that most grids give
   /// How far the surface may stay away from the steps between voxels to be smooth: RMS, in voxels.
   double smoothing = 0.15;
+  std::optional<VolumeGrid> within;  ///< the surface does not leave these voxels
 };
 
 /// A closed surface in the world, and how it was found.
@@ -41,11 +42,14 @@ Segmentation segment_mask(const Volume& mask, const SegmentOptions& options = {}
 
 /// Options of segment_image().
 struct ImageFitOptions {
-  double smoothing = 1.0;  ///< the width of the image's smoothing in the end, voxels; three times as much at first
-  double reach = 3.0;      ///< how far edges are searched along the normal in the end, voxels; twice as far at first
-  double point_weight = 30.0;  ///< of all points together beside all edges together
-  double fairness = 0.1;       ///< in the end (FitStep)
+  double smoothing = 1.0;        ///< the width of the image's smoothing in the end, voxels
+  double first_smoothing = 3.0;  ///< so many times as much at first
+  double reach = 3.0;            ///< how far edges are searched along the normal in the end, voxels
+  double first_reach = 2.0;      ///< so many times as far at first
+  double point_weight = 30.0;    ///< of all points together beside all edges together
+  double fairness = 0.1;         ///< in the end (FitStep)
   int rounds = 24;
+  bool leave_blur = true;  ///< moves the surface off the edges to where they were before the blur (volume/edge_blur.h)
 };
 
 /// Draws a surface to the edges of an image and to points. In each round every place of a grid on the surface looks

@@ -1,0 +1,39 @@
+/// \file Steps of a fit that leave the surface sound: it neither meets itself nor leaves a box of voxels.
+#pragma once
+#include <cstdint>
+#include <optional>
+
+#include "batten/fit/surface_fitter.h"
+#include "batten/volume/volume.h"
+
+namespace batten {
+
+/// Takes one step after the other, but for those after which the surface meets itself.
+class GuardedSteps {
+ public:
+  /// within: control points outside of its voxels, now or after a step, go to their outer faces; as the surface lies in
+  /// the hull of its control points, it is inside, too. The fitter must outlive this.
+  explicit GuardedSteps(SurfaceFitter& fitter, std::optional<VolumeGrid> within = {});
+
+  /// Needs SurfaceFitter::attach() first and leaves the surface attached. halvings: how often a shorter step is tried.
+  /// False where the step was taken back.
+  bool take(FitStep step, int halvings = 0);
+
+  int taken() const { return taken_; }
+  int cut() const { return cut_; }
+
+ private:
+  SurfaceFitter& fitter_;
+  std::optional<VolumeGrid> within_;
+  std::int64_t meetings_ = 0;  ///< pairs of triangles that meet
+  int taken_ = 0;
+  int cut_ = 0;
+};
+
+/// Points outside of a grid's voxels moved to the nearest place of its outer faces along its indices.
+Points moved_inside(const VolumeGrid& grid, const Points& points);
+
+/// The mesh of the fitter's control points, with its scheme stated.
+Mesh control_mesh(const SurfaceFitter& fitter);
+
+}  // namespace batten

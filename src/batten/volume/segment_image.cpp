@@ -1,0 +1,170 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+#include "batten/volume/segment.h"
+
+#include "batten/dynamics/surface_samples.h"
+#include "batten/error.h"
+#include "batten/volume/edge_blur.h"
+#include "batten/volume/edge_search.h"
+#include "batten/volume/guarded_steps.h"
+
+namespace batten {
+
+namespace {
+
+/// Places of the surface and their normals.
+PointCloud surface_places(const std::vector<Jet>& jets) {
+  PointCloud cloud;
+  cloud.points.resize(static_cast<Eigen::Index>(jets.size()), 3);
+  cloud.normals.resize(cloud.points.rows(), 3);
+  for (Eigen::Index i = 0; i < cloud.points.rows(); ++i) {
+    cloud.points.row(i) = jets[i].point.transpose();
+    cloud.normals.row(i) = jets[i].du.cross(jets[i].dv).normalized().transpose();
+  }
+  return cloud;
+}
+
+std::vector<SurfacePlace> places_of(const SurfaceSamples& samples) {
+  std::vector<SurfacePlace> places;
+  for (std::ptrdiff_t i = 0; i < samples.count(); ++i) places.push_back(samples.place(i));
+  return places;
+}
+
+/// The edges that were found and the points, each with its weight, as what the surface is drawn to.
+void set_targets(SurfaceFitter& fitter, const PointCloud& places, const FoundEdges& edges, const Points& points,
+                 double point_weight) {
+  const Eigen::Index count = places.points.rows();
+  PointCloud cloud;
+  cloud.points.resize(count + points.rows(), 3);
+  cloud.points << edges.places, points;
+  cloud.normals = Points::Zero(cloud.points.rows(), 3);
+  cloud.normals.topRows(count) = places.normals;
+  Scalars weights(cloud.points.rows());
+  weights.head(count) = edges.weights;
+  if (points.rows() > 0)
+    weights.tail(points.rows())
+        .setConstant(point_weight * std::max(edges.weights.sum(), 1e-3 * static_cast<double>(count)) /
+                     static_cast<double>(points.rows()));
+  // Places without an edge hold the surface a little where it is.
+  weights.head(count).array() += 1e-3;
+  fitter.set_cloud(std::move(cloud));
+  fitter.set_weights(std::move(weights));
+}
+
+void require_options(const ImageFitOptions& options) {
+  const bool good = options.smoothing > 0.0 && options.reach > 0.0 && options.point_weight >= 0.0 &&
+                    options.first_smoothing >= 1.0 && options.first_reach >= 1.0 && options.fairness > 0.0 &&
+                    options.rounds >= 1;
+  if (!good) throw Error(ErrorCode::BadArgument, "smoothing, reach and fairness are greater than 0, rounds 1 or more");
+}
+
+/// The rounds of a fit to an image.
+class ImageRounds {
+ public:
+  ImageRounds(const Segmentation& start, const Volume& image, const Points& points, const ImageFitOptions& options)
+      : options_(options),
+        points_(points),
+        near_(cropped_around(image, start.mesh.points, kMargin)),
+        voxel_(std::cbrt(image.grid.voxel_volume())),
+        patches_(start.topology, start.scheme),
+        asked_(places_of(SurfaceSamples(patches_, GaussSamples{{2, 0}}))),
+        jets_(asked_.size()),
+        fitter_(start.topology, start.scheme, start.mesh.points,
+                {start.mesh.points, Points::Zero(start.mesh.points.rows(), 3)}),
+        steps_(fitter_, image.grid),
+        surface_(patches_, fitter_.control()) {}
+
+  /// early: 1 at first, 0 in the end.
+  void take(double early) {
+    const FoundEdges edges = find(early);
+    set_targets(fitter_, places_, edges, points_, options_.point_weight * std::pow(kPointsFirst, early));
+    step(options_.fairness * std::pow(std::max(1.0, kFirstFairness / options_.fairness), early));
+  }
+
+  /// The image is smoothed anew a few times only.
+  void smooth(double early) {
+    width_ = options_.smoothing * voxel_ * std::pow(options_.first_smoothing, early);
+    search_.emplace(near_, width_);
+  }
+
+  /// From the edges that the surface lies on to where they were before the blur. What blur does is known from the
+  /// bends of the surface on the edges; bends of the moved surface would grow from round to round.
+  void leave_blur() {
+    constexpr int kSteps = 4;
+    FoundEdges edges = find(0.0);
+    std::vector<PointCurvature> curvatures;
+    for (const Jet& jet : jets_) curvatures.push_back(curvature_of(jet));
+    const Eigen::Matrix3d covariance = edge_covariance(near_.grid, width_, edges, curvatures);
+    for (Eigen::Index i = 0; i < edges.places.rows(); ++i) {
+      if (edges.weights[i] > 0.0) edges.places.row(i) += edge_shift(curvatures[i], covariance) * places_.normals.row(i);
+    }
+    set_targets(fitter_, places_, edges, points_, options_.point_weight);
+    for (int i = 0; i < kSteps; ++i) step(options_.fairness);
+  }
+
+  const SurfaceFitter& fitter() const { return fitter_; }
+  const GuardedSteps& steps() const { return steps_; }
+
+ private:
+  static constexpr Index kMargin = 24;
+  static constexpr double kFirstFairness = 0.3;
+  static constexpr int kHalvings = 3;
+  static constexpr double kPointsFirst = 30.0;  // the points alone make the shape before edges count
+
+  FoundEdges find(double early) {
+    surface_.set_control(fitter_.control());
+    surface_.jets(asked_, jets_);
+    places_ = surface_places(jets_);
+    return search_->find(places_.points, places_.normals,
+                         options_.reach * voxel_ * std::pow(options_.first_reach, early));
+  }
+
+  void step(double fairness) {
+    fitter_.attach();
+    FitStep step;
+    step.pull = 0.0;
+    step.fairness = fairness;
+    steps_.take(step, kHalvings);
+  }
+
+  ImageFitOptions options_;
+  const Points& points_;
+  Volume near_;
+  double voxel_;
+  SurfacePatches patches_;
+  std::vector<SurfacePlace> asked_;
+  std::vector<Jet> jets_;
+  PointCloud places_;
+  SurfaceFitter fitter_;
+  GuardedSteps steps_;
+  LimitSurface surface_;
+  std::optional<EdgeSearch> search_;
+  double width_ = 0.0;
+};
+
+}  // namespace
+
+Segmentation segment_image(const Segmentation& start, const Volume& image, const Points& points,
+                           const ImageFitOptions& options, const Progress& progress) {
+  require_options(options);
+  ImageRounds rounds(start, image, points, options);
+  for (int round = 0; round < options.rounds; ++round) {
+    report_progress(progress, static_cast<double>(round) / options.rounds);
+    const double done = options.rounds > 1 ? static_cast<double>(round) / (options.rounds - 1) : 1.0;
+    const double early = std::max(0.0, 1.0 - 1.5 * done);
+    if (round % 6 == 0) rounds.smooth(early);
+    rounds.take(early);
+  }
+  if (options.leave_blur) rounds.leave_blur();
+  Segmentation result = start;
+  result.rounds = rounds.steps().taken();
+  result.cut_steps = rounds.steps().cut();
+  result.mesh = control_mesh(rounds.fitter());
+  report_progress(progress, 1.0);
+  return result;
+}
+
+}  // namespace batten

@@ -1,0 +1,94 @@
+#include "batten/volume/segment_volume.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "batten/error.h"
+#include "batten/mesh/component_volumes.h"
+#include "batten/refine/refinement.h"
+#include "batten/volume/label_mask.h"
+#include "batten/volume/points_mask.h"
+
+namespace batten {
+
+namespace {
+
+void require_request(const SegmentRequest& request) {
+  const int starts = (request.points.rows() > 0 ? 1 : 0) + (request.seed ? 1 : 0) + (request.start ? 1 : 0);
+  if (starts > 1) throw Error(ErrorCode::BadArgument, "a surface starts from points, from a seed or from a mesh");
+  if (request.seed_options.range && !request.seed)
+    throw Error(ErrorCode::BadArgument, "a range of numbers goes with a seed");
+}
+
+bool is_closed(const Topology& topology, const Points& points) {
+  const ComponentVolumes volumes = component_volumes(topology, points);
+  return volumes.closed_count() == volumes.components.count;
+}
+
+/// A mesh as the start of segment_image().
+Segmentation started_from(const Mesh& mesh, const Volume& image, Scheme scheme) {
+  if (mesh.scheme) scheme = choose_scheme(mesh);
+  Segmentation start{mesh, Topology(mesh), scheme};
+  const Topology& topology = start.topology;
+  if (!is_closed(topology, mesh.points))
+    throw Error(ErrorCode::BadArgument, "the mesh to start from has holes; close them first");
+  Points low(2, 3);
+  low.row(0) = mesh.points.colwise().minCoeff();
+  low.row(1) = mesh.points.colwise().maxCoeff();
+  const Points middle = image.grid.to_indices(0.5 * (low.row(0) + low.row(1)));
+  for (int c = 0; c < 3; ++c) {
+    if (middle(0, c) < -0.5 || middle(0, c) > image.grid.size[c] - 0.5)
+      throw Error(ErrorCode::BadArgument,
+                  "the mesh to start from does not lie in the image; is it in the other world, RAS or LPS?");
+  }
+  start.components = connected_components(topology).count;
+  start.genus = start.components - (topology.vertex_count() - topology.edge_count() + topology.face_count()) / 2;
+  return start;
+}
+
+/// What the edges of the image draw, and the region of a seed.
+Segmentation first_surface(const Volume& image, const SegmentRequest& request, const Volume* mask,
+                           std::optional<SeedRegion>& region, const Progress& progress) {
+  if (request.start) return started_from(*request.start, image, request.surface.scheme);
+  if (request.points.rows() > 0) return segment_mask(points_mask(request.points), request.surface, progress);
+  if (request.seed) {
+    region = seed_region(image, *request.seed, request.seed_options, progress_within(progress, 0.0, 0.2));
+    return segment_mask(region->mask, request.surface, progress_within(progress, 0.2, 1.0));
+  }
+  SegmentOptions options = request.surface;
+  if (!options.within) options.within = request.labels ? request.labels->grid : image.grid;
+  return segment_mask(*mask, options, progress);
+}
+
+}  // namespace
+
+SegmentResult segment_volume(const Volume& image, const SegmentRequest& request, const Progress& progress) {
+  constexpr double kAlpha = 2.0;          // of the smoothing before edges are measured, 1/mm
+  constexpr double kNearFairness = 0.05;  // of starts that lie on edges or near them
+  require_request(request);
+  require_volume(image);
+  const bool started = request.points.rows() > 0 || request.seed || request.start;
+  const bool drawn = started || request.edges;
+  std::optional<Volume> mask;
+  if (!started || request.labels) mask = label_mask(request.labels ? *request.labels : image, request.label);
+  std::optional<SeedRegion> region;
+  Segmentation surface =
+      first_surface(image, request, mask ? &*mask : nullptr, region, progress_within(progress, 0.0, drawn ? 0.5 : 1.0));
+  if (!is_closed(surface.topology, surface.mesh.points))
+    throw Error(ErrorCode::NotConverged,
+                "the part is too thin for so few control points: its surface does not close; take more of them");
+  ImageFitOptions options = request.image.value_or(ImageFitOptions{});
+  if (!request.image && (request.seed || request.start)) {
+    options.fairness = kNearFairness;
+    options.first_smoothing = 1.0;
+    options.first_reach = 1.0;
+  }
+  if (drawn) surface = segment_image(surface, image, request.points, options, progress_within(progress, 0.5, 1.0));
+  SurfaceMeasures measures = measure_surface(surface.topology, surface.scheme, surface.mesh);
+  std::optional<MaskAgreement> agreement;
+  if (mask) agreement = compare_with_mask(measures.fine, *mask);
+  const EdgeStrength edges = edge_strength(measures.fine, image, kAlpha);
+  return {std::move(surface), std::move(region), std::move(measures), agreement, edges};
+}
+
+}  // namespace batten
