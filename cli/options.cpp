@@ -132,8 +132,8 @@ void add_output(CLI::App& verb, CommonArguments& common) {
   add_output_file(verb, "-o,--output", common.output,
                   "file to write; the type follows the extension, - is standard output");
   verb.add_option("--output-format", common.output_format, "the output's type where its name does not tell")
-      ->option_text("obj|ply|off|stl|xyz|glb|usda");
-  verb.add_flag("--ascii", common.ascii, "PLY and STL as text");
+      ->option_text("obj|ply|off|stl|xyz|glb|usda|vtk|fsb|gii");
+  verb.add_flag("--ascii", common.ascii, "PLY, STL, VTK, FreeSurfer's format and GIFTI as text");
 }
 
 void add_surface(CLI::App& verb, CommonArguments& common) {
@@ -258,8 +258,9 @@ void set_run(CLI::App& verb, CommonArguments& common, int& status, const std::fu
     if (is_given(verb, "--turntable")) require_picture_files(verb);
     if (is_given(verb, "--output") && verb.get_option_no_throw("--output-format") != nullptr) {
       const std::string format = file_format(common.output, common.output_format);
-      if (common.ascii && format != "ply" && format != "stl") {
-        throw UsageError("--ascii does nothing for ." + format + ", only for .ply and .stl");
+      constexpr std::array kWithText{"ply", "stl", "vtk", "fsb", "gii"};
+      if (common.ascii && std::find(kWithText.begin(), kWithText.end(), format) == kWithText.end()) {
+        throw UsageError("--ascii does nothing for ." + format + ", only for .ply, .stl, .vtk, .fsb and .gii");
       }
     }
     status = run();

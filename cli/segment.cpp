@@ -78,11 +78,19 @@ void draw_overlay(const SegmentArguments& arguments, const Mesh& fine, const Vol
 #endif
 }
 
+/// Formats whose programs draw what the file holds, and know no subdivision.
+bool holds_fine_surface(const std::string& format) {
+  return format == "glb" || format == "vtk" || format == "fsb" || format == "gii";
+}
+
 /// The control mesh, or its surface, in the space that was asked for, which the file says.
 std::string write_in_space(const SegmentArguments& arguments, const Segmentation& result, Job& job) {
   const CommonArguments& common = arguments.common;
   if (common.output.empty()) return {};
-  const bool fine = arguments.levels >= 0 || file_format(common.output, common.output_format) == "glb";
+  const std::string format = file_format(common.output, common.output_format);
+  if (format == "gii" && arguments.space == WorldSpace::Lps)
+    throw Error(ErrorCode::BadArgument, common.output + ": GIFTI files are in RAS; leave --space out");
+  const bool fine = arguments.levels >= 0 || holds_fine_surface(format);
   const int levels = arguments.levels >= 0 ? arguments.levels : std::min(3, picture_levels(result.topology));
   Mesh mesh = fine ? surface_mesh(result.topology, result.scheme, result.mesh, levels) : result.mesh;
   mesh.points = in_space(std::move(mesh.points), arguments.space);

@@ -88,6 +88,17 @@ TEST_F(SegmentTool, StartsFromAMesh) {
   EXPECT_EQ(run("segment ball.nrrd --numbers 1,2 -o c.obj").status, 2);
 }
 
+TEST_F(SegmentTool, WritesTheFineSurfaceForProgramsOfMedicine) {
+  for (const char* name : {"a.gii", "a.fsb", "a.vtk"}) {
+    const Outcome result = run(std::string("segment ball.nrrd --vertices 100 -o ") + name);
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_NE(result.out.find("refined to"), std::string::npos) << result.out;
+  }
+  EXPECT_NE(text_of(path("a.vtk")).find("SPACE=RAS"), std::string::npos);
+  EXPECT_NE(run("segment ball.nrrd --space lps -o b.gii").err.find("RAS"), std::string::npos);
+  EXPECT_FALSE(fs::exists(path("b.gii")));
+}
+
 TEST_F(SegmentTool, SaysWhatIsWrong) {
   EXPECT_EQ(run("segment ball.nrrd").status, 2) << "nothing to write";
   const Outcome absent = run("segment ball.nrrd --label 71 -o a.obj");

@@ -26,6 +26,10 @@ void write_ply(OutputFile& file, const Mesh& mesh, Encoding encoding, const std:
 void write_off(OutputFile& file, const Mesh& mesh);
 void write_stl(OutputFile& file, const Mesh& mesh, Encoding encoding, const std::string& comment = {});
 void write_xyz(OutputFile& file, const Mesh& mesh);
+void write_vtk(OutputFile& file, const Mesh& mesh, Encoding encoding, const std::string& comment = {});
+/// Triangles in float. Throw Error(BadShape) for points without faces, BadArgument for numbers beyond those of floats.
+void write_freesurfer(OutputFile& file, const Mesh& mesh, Encoding encoding, const std::string& comment = {});
+void write_gifti(OutputFile& file, const Mesh& mesh, Encoding encoding);
 /// WriteOptions::up, or where it is Auto the guess.
 inline UpAxis up_axis_to_write(const Mesh& mesh, UpAxis up) {
   return up == UpAxis::Auto ? guess_up_axis(mesh, UpAxis::Y) : up;

@@ -79,6 +79,21 @@ constexpr Format kFormats[] = {
        io::write_usda(file, mesh, io::up_axis_to_write(mesh, options.up));
      },
      UpAxis::Y},
+    {"vtk", nullptr,
+     [](const std::string&, io::OutputFile& file, const Mesh& mesh, const WriteOptions& options) {
+       io::write_vtk(file, mesh, encoding_of(options), options.comment);
+     },
+     UpAxis::Z},
+    {"fsb", nullptr,
+     [](const std::string&, io::OutputFile& file, const Mesh& mesh, const WriteOptions& options) {
+       io::write_freesurfer(file, mesh, encoding_of(options), options.comment);
+     },
+     UpAxis::Z},
+    {"gii", nullptr,
+     [](const std::string&, io::OutputFile& file, const Mesh& mesh, const WriteOptions& options) {
+       io::write_gifti(file, mesh, encoding_of(options));
+     },
+     UpAxis::Z},
 };
 
 /// The extension in lower case and without the dot.

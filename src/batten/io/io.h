@@ -1,6 +1,6 @@
 /// \file Reads and writes meshes and points. The file type follows the extension: .obj .ply .off .stl .xyz
-/// .glb, for reading only .gltf, for writing only .usda. A gzip file, such as scan.ply.gz, is unpacked while it is
-/// read.
+/// .glb, for reading only .gltf, for writing only .usda .vtk .fsb .gii. A gzip file, such as scan.ply.gz, is unpacked
+/// while it is read.
 ///
 /// Readers keep every double bit for bit, polygons of any size, and the file's choices about the surface. They check
 /// the syntax: a bad token, a missing coordinate or an index out of range throws an Error that names the file and the
@@ -65,13 +65,14 @@ UpAxis find_up_axis(const Mesh& mesh, const std::string& format);
 
 /// Options of write_mesh.
 struct WriteOptions {
-  std::string format;  ///< "obj", "ply", "off", "stl", "xyz", "glb", "usda"; empty for the path's extension
-  /// PLY and STL: little-endian bytes; otherwise text with the fewest digits that read back exactly.
+  /// "obj", "ply", "off", "stl", "xyz", "glb", "usda", "vtk", "fsb", "gii"; empty for the path's extension
+  std::string format;
+  /// PLY, STL, VTK, FreeSurfer's format and GIFTI: bytes; otherwise text with the fewest digits that read back exactly.
   bool binary = true;
   /// GLB and USDA: the mesh's up axis. Auto: find_up_axis without a format, that is guess_up_axis(mesh, UpAxis::Y).
   UpAxis up = UpAxis::Y;
-  /// A line for other programs in OBJ, PLY and STL (there in the header's 80 bytes), such as "SPACE=RAS"; without a
-  /// line end.
+  /// A line for other programs in OBJ, PLY, STL (there in the header's 80 bytes), VTK and FreeSurfer's format, such as
+  /// "SPACE=RAS"; without a line end.
   std::string comment = {};
 };
 
@@ -97,6 +98,9 @@ struct WriteOptions {
 ///         digits of a double although USD's type is float, and a translation as in GLB. upAxis is Y or Z; for the
 ///         other axes a transform turns the mesh to Y. A mesh with normals and without any choice about a surface
 ///         (scheme, rule, tag or hole) is written as polygons (subdivisionScheme "none").
+///   VTK   points in double and faces, as legacy polydata of version 3.0
+///   FSB   a surface of FreeSurfer's, whose names have no extensions: triangles in float (with text its ascii variant)
+///   GII   GIFTI: triangles in float, in the space of the scanner, which is RAS there
 ///
 /// If anything fails, an existing file stays unchanged (write_atomically). "-" writes to standard output.
 /// Throws Error(FileNotWritable, UnknownFormat (also for .gz), Cancelled), and for a mesh that no reader would accept

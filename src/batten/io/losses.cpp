@@ -41,6 +41,9 @@ constexpr Place kPlaces[] = {
      KeptGroups::Materials},
     {"usda", true, true, true, true, Kept::Anywhere, Kept::Anywhere, Kept::Anywhere, Kept::Anywhere,
      KeptGroups::Materials},
+    {"vtk", true, true, false, false, Kept::Nowhere, Kept::Nowhere, Kept::Nowhere, Kept::Nowhere, KeptGroups::None},
+    {"fsb", true, false, false, false, Kept::Nowhere, Kept::Nowhere, Kept::Nowhere, Kept::Nowhere, KeptGroups::None},
+    {"gii", true, false, false, false, Kept::Nowhere, Kept::Nowhere, Kept::Nowhere, Kept::Nowhere, KeptGroups::None},
 };
 
 class Losses {
@@ -67,10 +70,13 @@ class Losses {
     add(!place_.faces && faces > 0, "faces");
     if (place_.faces && !place_.polygons && faces > 0) {
       add(!all_triangles(mesh_), "polygons (cut into triangles)");
-      add(has_loose_vertices(), "vertices without a face");
+      add(!keeps_vertices() && has_loose_vertices(), "vertices without a face");
     }
-    add(is("stl") && binary && !fits_floats(), "digits of the coordinates");
+    add(((is("stl") && binary) || is("gii") || (is("fsb") && binary)) && !fits_floats(), "digits of the coordinates");
   }
+
+  /// Triangles by the numbers of vertices, which are all there.
+  bool keeps_vertices() const { return is("fsb") || is("gii"); }
 
   bool has_loose_vertices() const {
     std::vector<std::uint8_t> used(static_cast<std::size_t>(mesh_.vertex_count()), 0);
