@@ -146,6 +146,14 @@ TEST(SegmentVolume, AMeshIsDrawnToTheEdgesFromNearby) {
   EXPECT_EQ(found.surface.genus, 0);
 }
 
+TEST(SegmentVolume, RefusesAPlateWhoseSurfaceDoesNotClose) {
+  const auto plate = [](const Place& at) { return at[2] == 0.0 && at.head<2>().norm() < 9.0 ? 1 : 0; };
+  SegmentRequest request;
+  request.surface.vertices = 200;
+  test::expect_error([&] { segment_volume(test::made_volume(test::centred_grid(25), plate), request); },
+                     ErrorCode::NotConverged, "too thin");
+}
+
 TEST(SegmentVolume, RefusesAnOpenMeshAnotherWorldAndTwoStarts) {
   const Volume image = imaged(kPhantoms[0], test::centred_grid(40), 0.0);
   SegmentRequest request;
