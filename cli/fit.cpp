@@ -26,7 +26,9 @@ FitOptions options_of(const FitArguments& arguments, const Mesh& points, Job& jo
     options.scheme = choose_scheme(*options.initial);
   }
   if (arguments.common.scheme) options.scheme.kind = *arguments.common.scheme;
+  options.method = arguments.method;
   options.vertices = arguments.vertices;
+  options.rounds = arguments.rounds.value_or(options.rounds);
   options.genus = arguments.genus;
   const auto in_unit = [&](const Length& length) {
     return length.value * (length.relative ? bounding_diagonal(points.points) : 1.0);
@@ -104,7 +106,7 @@ nlohmann::ordered_json report_json(const FitResult& result) {
           {"peak_memory_bytes", peak_memory_bytes()}};
 }
 
-void print_table(const FitResult& result, const std::string& written, const Job& job) {
+void print_table(const FitResult& result, const std::string& written, const std::string& frames, const Job& job) {
   const FitReport& report = result.report;
   Table table;
   table.add("points", count_of(result.distances.size(), "point", "points"));
@@ -119,12 +121,20 @@ void print_table(const FitResult& result, const std::string& written, const Job&
     table.add("unsound", count_of(report.unsound, "face", "faces") + " fold over or pass through others");
   table.add("rounds", fmt::format("{}; {}", report.rounds.size(), end_text(report)));
   if (!written.empty()) table.add("written", written);
+  if (!frames.empty()) table.add("frames", frames);
   job.print(table);
+}
+
+constexpr Index kMostMarkers = 20000;
+constexpr Index kMarkersOfRounds = 3000;
+
+/// Of so many points, so that they leave the surface to be seen.
+double marker_radius(Eigen::Index count, const FitReport& report) {
+  return report.diameter * std::min(0.15 / std::sqrt(static_cast<double>(count)), 0.008);
 }
 
 /// The surface with the points where they meet it, in the colours of their distances.
 void draw_fit(const FitArguments& arguments, const FitResult& result, const Mesh& points, Job& job) {
-  constexpr Index kMostMarkers = 20000;
   Subject subject;
   subject.control = &result.mesh;
   subject.topology = result.topology;
@@ -134,8 +144,7 @@ void draw_fit(const FitArguments& arguments, const FitResult& result, const Mesh
   const std::vector<Index> drawn = sample_points(result.distances, kMostMarkers);
   subject.numbers = result.distances(drawn);
   subject.markers = points.points(drawn, Eigen::all);
-  const double count = static_cast<double>(drawn.size());
-  subject.marker_radius = result.report.diameter * std::min(0.15 / std::sqrt(count), 0.008);
+  subject.marker_radius = marker_radius(subject.markers.rows(), result.report);
   draw(subject, arguments.picture, job);
   job.stages.finish("picture");
 }
@@ -151,7 +160,9 @@ void write_residuals(const FitArguments& arguments, const FitResult& result, Mes
 int run_fit(const FitArguments& arguments) {
   const CommonArguments& common = arguments.common;
   Job job("fit", common);
-  const FitOptions options = options_of(arguments, job.mesh, job);
+  FitOptions options = options_of(arguments, job.mesh, job);
+  Evolution evolution(arguments.evolution);
+  options.watch = evolution.watcher();
   const Index vertices = std::max(options.vertices.value_or(0), options.initial ? options.initial->vertex_count() : 0);
   const PointCloud cloud = cloud_of_mesh(job.mesh, vertices);
   Mesh points;
@@ -162,8 +173,17 @@ int run_fit(const FitArguments& arguments) {
   job.stages.finish("fit");
   const std::string written = write_surface({result.mesh, result.topology, result.scheme}, -1, job);
   write_residuals(arguments, result, points);
-  if (!arguments.picture.path.empty()) draw_fit(arguments, result, points, job);
-  print_table(result, written, job);
+  // Small and few, so that the surface is seen between them in a panel.
+  const Points markers = points.points(sample_points(result.distances, kMarkersOfRounds), Eigen::all);
+  const double radius = 0.5 * marker_radius(markers.rows(), result.report);
+  if (arguments.evolution.moments) {
+    evolution.draw_moments(arguments.picture, markers, radius, job);
+    job.stages.finish("picture");
+  } else if (!arguments.picture.path.empty()) {
+    draw_fit(arguments, result, points, job);
+  }
+  const std::string frames = evolution.write(arguments.picture, markers, radius, job);
+  print_table(result, written, frames, job);
   job.report(report_json(result));
   return 0;
 }

@@ -3,7 +3,9 @@
 #include <optional>
 #include <string>
 
+#include "batten/fit/fit_surface.h"
 #include "cli/arguments.h"
+#include "cli/evolution.h"
 
 namespace batten::cli {
 
@@ -14,8 +16,11 @@ inline constexpr const char* kInitSphere = "sphere";
 struct FitArguments {
   CommonArguments common;  ///< input: the points
   PictureArguments picture;
+  EvolutionArguments evolution;
+  FitMethod method = FitMethod::SquaredDistance;
   std::string init = kInitAuto;  ///< or kInitSphere, or a mesh file
   std::optional<Index> vertices;
+  std::optional<int> rounds;
   std::optional<Length> tolerance;
   std::optional<Index> genus;
   std::optional<Length> bridge;

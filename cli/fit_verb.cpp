@@ -15,8 +15,14 @@ void add_fit(CLI::App& app, FitArguments& arguments, int& status) {
                   "faces and vertex order stay; auto")
       ->type_name("FILE")
       ->option_text("auto|sphere|FILE");
+  add_choice(verb, "--method", arguments.method,
+             Names<FitMethod>{{"squared-distance", FitMethod::SquaredDistance}, {"dynamic", FitMethod::Dynamic}},
+             "steps that make squared distances least, or springs that draw an elastic surface; squared-distance");
   verb.add_option("--vertices", arguments.vertices, "at most so many control points; 400, or those of --init FILE")
       ->check(whole_number(8));
+  verb.add_option("--rounds", arguments.rounds,
+                  "at most so many rounds for each number of control points; 30. Fewer are faster")
+      ->check(whole_number(1));
   add_length(verb, "--tolerance", arguments.tolerance, "stop when no point is farther from the surface");
   verb.add_option("--genus", arguments.genus, "how many handles the surface has; found if not given")
       ->check(whole_number(0));
@@ -27,10 +33,12 @@ void add_fit(CLI::App& app, FitArguments& arguments, int& status) {
              "catmull-clark, or that of --init FILE, if not given");
   add_output_file(verb, "--residuals", arguments.residuals,
                   "write the points with their distances, as the property \"distance\"", {".ply"});
+  add_evolution(verb, arguments.evolution);
   add_picture(verb, arguments.picture);
   add_range(verb, arguments.picture);
   set_run(verb, arguments.common, status, [&] {
-    require_output(verb, {"--picture", "--report", "--residuals"});
+    require_output(verb, {"--picture", "--report", "--residuals", "--frames"});
+    require_with(verb, {"--moments"}, {"--picture"});
     if (arguments.init != kInitAuto) require_alone(verb, "--init", {"--genus", "--bridge"});
     return run_fit(arguments);
   });

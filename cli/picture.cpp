@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "batten/error.h"
+#include "batten/progress.h"
 #include "cli/input_output.h"
 #include "cli/progress.h"
 #ifdef BATTEN_WITH_RENDER
@@ -168,7 +169,34 @@ void draw_row(const std::vector<Subject>& subjects, const PictureArguments& argu
   draw_shots(shots, render_options(arguments, Layout(shots.size()), job), scale ? &*scale : nullptr, arguments, job);
 }
 
+void draw_frames(Index count, const std::function<Subject(Index)>& subject_of, const PictureArguments& arguments,
+                 Job& job) {
+  if (count == 0) return;
+  const Subject first = subject_of(0);
+  const Scene start = scene_of(first, arguments, true);
+  const Subject last = subject_of(count - 1);
+  const Scene end = scene_of(last, arguments, true);
+  RenderOptions options = render_options(arguments, Layout(1), job);
+  options.width = arguments.width;
+  options.style = style_beside(end, options.style);
+  options.marker_radius = last.marker_radius;
+  options.viewpoint = fit_viewpoint({&start, &end}, options);
+  ProgressBar bar("drawing rounds", job.common.quiet);
+  const Progress report = bar.callback();
+  for (Index i = 0; i < count; ++i) {
+    const Subject subject = subject_of(i);
+    const Scene scene = scene_of(subject, arguments, true);
+    const Progress part = progress_within(report, static_cast<double>(i) / count, static_cast<double>(i + 1) / count);
+    write_png(numbered(arguments.path, static_cast<std::size_t>(i)), render(scene, options, part));
+  }
+}
+
 #else
+
+void draw_frames(Index /*count*/, const std::function<Subject(Index)>& /*subject_of*/,
+                 const PictureArguments& arguments, Job& job) {
+  draw_row({}, arguments, job);
+}
 
 void draw(const Subject& /*subject*/, const PictureArguments& arguments, Job& job) { draw_row({}, arguments, job); }
 

@@ -1,5 +1,6 @@
 /// \file From a control mesh to its pictures: the surface, its colours, the bar, panels, the turntable.
 #pragma once
+#include <functional>
 #include <optional>
 
 #include "batten/mesh/topology.h"
@@ -39,5 +40,10 @@ ScaleRequest mean_curvature_scale();
 /// Their numbers, given or of a colouring, have one scale, that of the last subject's request over the numbers of all,
 /// and its bar.
 void draw_row(const std::vector<Subject>& subjects, const PictureArguments& arguments, Job& job);
+
+/// Pictures NAME-000, NAME-001, ... of subjects that are made when their turn comes, all from the viewpoint that shows
+/// the first and the last.
+void draw_frames(Index count, const std::function<Subject(Index)>& subject_of, const PictureArguments& arguments,
+                 Job& job);
 
 }  // namespace batten::cli

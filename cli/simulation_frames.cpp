@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "batten/io/animation.h"
 #include "batten/io/io.h"
 #include "batten/mesh/moved_mesh.h"
 #include "batten/tessellate/moving_surface.h"
 #include "batten/tessellate/surface_mesh.h"
+#include "cli/film.h"
 
 namespace batten::cli {
 
@@ -79,11 +79,7 @@ std::string SimulationFrames::finish(bool hurry) {
   const MovingSurface surface =
       surface_through_time(topology, run_.scheme(), first, shapes, std::move(times), depth, watched(refining));
   const WriteOptions options{common.output_format, true, job_.up};
-  if (shapes.empty()) {
-    write_mesh(common.output, surface.mesh, options, watched(writing));
-  } else {
-    write_animation(common.output, surface.mesh, surface.targets, options, watched(writing));
-  }
+  write_moving_surface(common.output, surface, options, watched(writing));
   job_.lost = tell_losses(common, surface.mesh);
   return fmt::format("an animation of {:g} seconds in {}, {}", seconds,
                      count_of(static_cast<std::int64_t>(frames_.size()), "frame", "frames"), size_text(surface.mesh));

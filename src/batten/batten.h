@@ -42,6 +42,7 @@
 #include "batten/fit/mesh_samples.h"
 #include "batten/fit/point_cloud.h"
 #include "batten/fit/start_sphere.h"
+#include "batten/fit/surface_film.h"
 #include "batten/fit/surface_fitter.h"
 #include "batten/interpolate/attributes.h"
 #include "batten/interpolate/fair_interpolation.h"

@@ -48,6 +48,27 @@ TEST_F(FitTool, MovesACageAndKeepsItsFaces) {
   EXPECT_NE(result.out.find("602 vertices, 600 faces"), std::string::npos) << result.out;
 }
 
+TEST_F(FitTool, WritesItsRoundsAndAFilm) {
+  write_mesh(path("points.xyz"), torus_points());
+  const Outcome result = run("fit " + path("points.xyz") +
+                             " --init sphere --method dynamic --vertices 98 --frames rounds --film film.glb -o a.obj" +
+                             " --report r.json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const auto rounds = nlohmann::json::parse(text_of(path("r.json"))).at("rounds").size();
+  const std::string count = std::to_string(rounds + 1);
+  EXPECT_NE(result.out.find(count + " frames in rounds"), std::string::npos) << result.out;
+  ASSERT_LT(rounds, 100U);
+  const std::string last =
+      path("rounds/round-0" + std::string(rounds < 10 ? "0" : "") + std::to_string(rounds) + ".obj");
+  EXPECT_EQ(read_mesh(last).points, read_mesh(path("a.obj")).points);
+  EXPECT_EQ(read_mesh(path("rounds/round-000.obj")).vertex_count(), 98);
+  EXPECT_EQ(read_mesh(path("film.glb")).face_count(), 96 * 16 * 2) << "four by four, in triangles";
+  write_mesh(path("file"), torus_points(), {"xyz"});
+  const Outcome wrong = run("fit " + path("points.xyz") + " --vertices 50 --frames file -o b.obj");
+  EXPECT_EQ(wrong.status, 1);
+  EXPECT_NE(wrong.err.find("folder"), std::string::npos) << wrong.err;
+}
+
 TEST_F(FitTool, RefusesWhatMakesNoSense) {
   write_mesh(path("points.xyz"), torus_points());
   EXPECT_EQ(run("fit " + path("points.xyz")).status, 2) << "nothing to write";

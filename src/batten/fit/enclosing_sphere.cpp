@@ -41,12 +41,25 @@ Sphere smallest(const std::vector<Eigen::Vector3d>& points, std::size_t count, s
   return sphere;
 }
 
+/// By coordinates: the sphere shall not depend on the order of points.
+Eigen::Vector3d first_in_order(ConstValuesRef points) {
+  Eigen::Index first = 0;
+  for (Eigen::Index i = 1; i < points.rows(); ++i) {
+    for (Eigen::Index c = 0; c < 3 && points(i, c) <= points(first, c); ++c) {
+      if (points(i, c) == points(first, c)) continue;
+      first = i;
+      break;
+    }
+  }
+  return points.row(first).transpose();
+}
+
 }  // namespace
 
 Sphere enclosing_sphere(ConstValuesRef points) {
   constexpr int kMostPasses = 100;
   if (points.rows() == 0) return {};
-  std::vector<Eigen::Vector3d> core{points.row(0).transpose()};
+  std::vector<Eigen::Vector3d> core{first_in_order(points)};
   Sphere sphere{core[0], 0.0};
   for (int pass = 0; pass < kMostPasses; ++pass) {
     Eigen::Index farthest = 0;

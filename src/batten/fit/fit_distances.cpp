@@ -21,7 +21,6 @@ DistanceSummary measure_to_points(const SurfaceFitter& fitter) {
 }
 
 Scalars measure_to_surface(const SurfaceFitter& fitter, const Points& points) {
-  if (points.rows() == fitter.cloud().points.rows()) return fitter.distances();
   const NearestPoints nearest(fitter.topology(), fitter.scheme(), fitter.control());
   std::vector<NearestPoint> found(static_cast<std::size_t>(points.rows()));
   nearest.nearest(points, found);

@@ -11,7 +11,7 @@ namespace batten {
 /// From places spread over the surface to the nearest points.
 DistanceSummary measure_to_points(const SurfaceFitter& fitter);
 
-/// Of all points of a cloud to the surface; the fitter's own if it has all of them.
+/// Of other points to the surface.
 Scalars measure_to_surface(const SurfaceFitter& fitter, const Points& points);
 
 /// Of the points that are no outliers; `left_out` becomes the number of the others.

@@ -1,15 +1,9 @@
 /// \file How a fit goes on from round to round: how fair the surface has to be, and when rounds gain nothing.
 #pragma once
+#include "batten/fit/fit_errors.h"
 #include "batten/fit/surface_fitter.h"
 
 namespace batten {
-
-/// How far the points are from the surface, as shares of the diameter; outliers are left out.
-struct FitErrors {
-  double rms = 0.0;
-  double max = 0.0;
-  double bulk = 0.0;  ///< RMS of the nearest 95 %
-};
 
 /// Fairness follows the fit: it counts with the square of the distances that are left, so that noise keeps a surface
 /// smooth and exact data set it free. It falls by no more than so much a round.

@@ -9,25 +9,25 @@
 #include <vector>
 
 #include "batten/error.h"
+#include "batten/fit/cloud_samples.h"
+#include "batten/fit/dynamic_fit.h"
 #include "batten/fit/enclosing_sphere.h"
 #include "batten/fit/first_mesh.h"
 #include "batten/fit/fit_distances.h"
+#include "batten/fit/fit_errors.h"
+#include "batten/fit/fit_levels.h"
 #include "batten/fit/fit_schedule.h"
 #include "batten/fit/outliers.h"
 #include "batten/fit/start_sphere.h"
 #include "batten/fit/surface_fitter.h"
 #include "batten/fit/thin_cloud.h"
 #include "batten/mesh/checked_values.h"
-#include "batten/quantile.h"
-#include "batten/refine/refinement.h"
+#include "batten/refine/refined_values.h"
 
 namespace batten {
 
 namespace {
 
-constexpr Index kUsualVertices = 400;
-/// About so many times as many control points has a refined mesh.
-constexpr double kOfRefinedVertices = 4.0;
 /// In the end a point counts with this power of its distance.
 constexpr double kWorstPower = 2.0;
 
@@ -54,7 +54,7 @@ Mesh starting_mesh(const PointCloud& cloud, const FitOptions& options, const Pro
   constexpr Eigen::Index kOfFirstVertex = 4;
   FirstMeshOptions first;
   first.faces = options.scheme.kind == SchemeKind::Loop ? FaceKind::Triangles : FaceKind::Quads;
-  const Index vertices = options.vertices.value_or(kUsualVertices);
+  const Index vertices = options.vertices.value_or(kUsualFitVertices);
   // A mesh with a vertex for every few points would take their unevenness for shape: refine later.
   const bool dense = cloud.points.rows() >= kOfFirstVertex * static_cast<Eigen::Index>(vertices);
   first.vertices = std::max(kLeast, dense ? vertices : vertices / 4);
@@ -63,46 +63,31 @@ Mesh starting_mesh(const PointCloud& cloud, const FitOptions& options, const Pro
   return first_mesh(cloud, first, progress).mesh;
 }
 
-/// Shares of the diameter.
-FitErrors errors_of(Buffer<double> distances, double diameter) {
-  constexpr double kBulk = 0.95;
-  FitErrors errors;
-  if (distances.empty()) return errors;
-  const double cut = quantile(distances, kBulk);
-  double squares = 0.0;
-  double of_bulk = 0.0;
-  double bulk = 0.0;
-  for (const double distance : distances) {
-    squares += distance * distance;
-    errors.max = std::max(errors.max, distance / diameter);
-    if (distance > cut) continue;
-    of_bulk += distance * distance;
-    bulk += 1.0;
-  }
-  errors.rms = std::sqrt(squares / static_cast<double>(distances.size())) / diameter;
-  errors.bulk = std::sqrt(of_bulk / bulk) / diameter;
-  return errors;
-}
+/// The points that the rounds work with, with normals: in the order of their coordinates, so that the order in which
+/// they are given changes no bit, and one at each place.
+struct WorkingCloud {
+  Buffer<Index> rows;  ///< in the whole cloud
+  PointCloud cloud;
+};
 
-/// The points that the rounds work with, with normals.
-PointCloud working_cloud(const PointCloud& cloud, const FitOptions& options, const Progress& progress) {
+WorkingCloud working_cloud(const PointCloud& cloud, const FitOptions& options, const Progress& progress) {
   constexpr Index kLeast = 10000;
   constexpr Index kOfVertex = 12;
   const Index start = options.initial ? options.initial->vertex_count() : 0;
-  const Index vertices = std::max(start, options.vertices.value_or(kUsualVertices));
+  const Index vertices = std::max(start, options.vertices.value_or(kUsualFitVertices));
   const Index most = std::max(kLeast, kOfVertex * std::min(vertices, std::numeric_limits<Index>::max() / kOfVertex));
-  const Buffer<Index> rows = thinned_rows(cloud.points, most);
-  PointCloud working;
-  working.points = cloud.points(rows, Eigen::all);
-  working.normals = cloud.normals.rows() > 0 ? Points(cloud.normals(rows, Eigen::all))
-                                             : estimate_normals(working.points, {}, progress);
+  const Buffer<Index> thin = thinned_rows(cloud.points, most);
+  WorkingCloud working;
+  const Points normals = cloud.normals.rows() > 0 ? Points(cloud.normals(thin, Eigen::all)) : Points(0, 3);
+  for (const Index place : sorted_rows(cloud.points(thin, Eigen::all), normals)) {
+    const Index row = thin[place];
+    if (working.rows.empty() || cloud.points.row(row) != cloud.points.row(working.rows.back()))
+      working.rows.push_back(row);
+  }
+  working.cloud.points = cloud.points(working.rows, Eigen::all);
+  working.cloud.normals = cloud.normals.rows() > 0 ? Points(cloud.normals(working.rows, Eigen::all))
+                                                   : estimate_normals(working.cloud.points, {}, progress);
   return working;
-}
-
-/// How many control points one refinement makes.
-double refined_count(const Topology& topology, SchemeKind kind) {
-  const double faces = kind == SchemeKind::CatmullClark ? topology.face_count() : 0.0;
-  return static_cast<double>(topology.vertex_count()) + topology.edge_count() + faces;
 }
 
 /// The rounds of one fit.
@@ -120,14 +105,10 @@ class FitRun {
 
   /// All rounds and refinements.
   void go(const Progress& progress) {
-    const Index most = options_.vertices.value_or(options_.initial ? 0 : kUsualVertices);
-    int levels = 1;
-    double count = next_count();
-    while (count <= most) {
-      count *= kOfRefinedVertices;
-      ++levels;
-    }
+    const Index most = most_fit_vertices(options_);
+    const int levels = fit_level_count(fitter_.topology(), fitter_.scheme().kind, most);
     const auto share = [levels](int level) { return std::min(static_cast<double>(level) / levels, 1.0); };
+    show();
     for (int level = 0;; ++level) {
       const bool last = next_count() > most;
       go_level(last, progress_within(progress, share(level), share(level + 1)));
@@ -148,14 +129,12 @@ class FitRun {
 
   const Buffer<std::uint8_t>& outliers() const { return outliers_; }
 
- private:
-  FitErrors measured() const {
-    Buffer<double> distances;
-    for (std::size_t i = 0; i < outliers_.size(); ++i) {
-      if (outliers_[i] == 0) distances.push_back(fitter_.distances()[static_cast<Eigen::Index>(i)]);
-    }
-    return errors_of(std::move(distances), report_.diameter);
+  void show() const {
+    if (options_.watch) options_.watch({fitter_.topology(), fitter_.scheme(), fitter_.control()});
   }
+
+ private:
+  FitErrors measured() const { return fit_errors(fitter_.distances(), outliers_, report_.diameter); }
 
   bool reached(const FitErrors& errors) {
     if (!(options_.tolerance > 0.0) || !(errors.max * report_.diameter <= options_.tolerance)) return false;
@@ -193,7 +172,7 @@ class FitRun {
     return true;
   }
 
-  double next_count() const { return refined_count(fitter_.topology(), fitter_.scheme().kind); }
+  Index next_count() const { return refined_vertex_count(fitter_.topology(), fitter_.scheme().kind); }
 
   /// All rounds of one control mesh. On the way to the points the surface may pass through itself: held back from that
   /// it would often stay where it is. Rounds that start from the best whole surface then keep it so.
@@ -309,6 +288,7 @@ class FitRun {
     round.iterations = solved.iterations;
     round.seconds = watch.seconds();
     report_.rounds.push_back(round);
+    show();
   }
 
   SurfaceFitter& fitter_;
@@ -329,6 +309,37 @@ class FitRun {
   int judged_ = 0;  ///< how often outliers were sought for the present control mesh
 };
 
+/// Rounds of attachment and steps. Fills the rounds and the end of the report, and flags the outliers.
+SurfaceFitter moved_in_rounds(const Mesh& start, const PointCloud& known, const FitOptions& options,
+                              const OutlierFilter& filter, FitReport& report, Buffer<std::uint8_t>& outliers,
+                              const Progress& progress) {
+  SurfaceFitter fitter(Topology(start), options.scheme, start.points, known, progress_within(progress, 0.0, 0.03));
+  fitter.attach(progress_within(progress, 0.03, 0.04));
+  FitRun run(fitter, options, report, filter);
+  const Progress rounds = progress_within(progress, 0.04, 1.0);
+  try {
+    run.go(rounds);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::Cancelled || report.rounds.empty()) throw;
+    report.end = FitEnd::Cancelled;
+    run.settle();
+  }
+  run.show();
+  outliers = run.outliers();
+  return fitter;
+}
+
+/// The same by springs.
+SurfaceFitter drawn_by_springs(const Mesh& start, const PointCloud& known, const FitOptions& options,
+                               const OutlierFilter& filter, FitReport& report, Buffer<std::uint8_t>& outliers,
+                               const Progress& progress) {
+  outliers = filter.lonely();
+  const DynamicFit found = fit_dynamic(start, known.points, outliers, options, report.diameter, report, progress);
+  SurfaceFitter fitter(found.topology, found.scheme, found.control, known);
+  fitter.attach();
+  return fitter;
+}
+
 }  // namespace
 
 FitResult fit_surface(const PointCloud& cloud, const FitOptions& options, const Progress& progress) {
@@ -337,36 +348,32 @@ FitResult fit_surface(const PointCloud& cloud, const FitOptions& options, const 
   FitReport report;
   report.diameter = 2.0 * enclosing_sphere(cloud.points).radius;
   if (!(report.diameter > 0.0)) throw Error(ErrorCode::BadArgument, "all points are at the same place");
-  const PointCloud known = working_cloud(cloud, options, progress_within(progress, 0.0, 0.05));
+  const WorkingCloud working = working_cloud(cloud, options, progress_within(progress, 0.0, 0.05));
+  const PointCloud& known = working.cloud;
   const Mesh start = starting_mesh(known, options, progress_within(progress, 0.05, 0.15));
-  SurfaceFitter fitter(Topology(start), options.scheme, start.points, known, progress_within(progress, 0.15, 0.17));
-  fitter.attach(progress_within(progress, 0.17, 0.18));
-  const OutlierFilter filter(known.points, progress_within(progress, 0.18, 0.2));
-  FitRun run(fitter, options, report, filter);
-  const Progress rounds = progress_within(progress, 0.2, 1.0);
-  try {
-    run.go(rounds);
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::Cancelled || report.rounds.empty()) throw;
-    report.end = FitEnd::Cancelled;
-    run.settle();
+  const OutlierFilter filter(known.points, progress_within(progress, 0.15, 0.17));
+  Buffer<std::uint8_t> left_out;
+  const auto fit = options.method == FitMethod::Dynamic ? drawn_by_springs : moved_in_rounds;
+  const SurfaceFitter fitter =
+      fit(start, known, options, filter, report, left_out, progress_within(progress, 0.17, 1.0));
+  Scalars distances(cloud.points.rows());
+  Buffer<std::uint8_t> outliers(static_cast<std::size_t>(cloud.points.rows()));
+  report.spacing = filter.spacing();
+  if (known.points.rows() == cloud.points.rows()) {
+    for (std::size_t i = 0; i < left_out.size(); ++i) {
+      distances[working.rows[i]] = fitter.distances()[static_cast<Eigen::Index>(i)];
+      outliers[working.rows[i]] = left_out[i];
+    }
+  } else {
+    distances = measure_to_surface(fitter, cloud.points);
+    report.spacing = sampled_spacing(cloud.points, filter.spacing());
+    outliers = filter.far_of(cloud.points, distances, fitter.distances(), report.spacing);
   }
-  Scalars distances = measure_to_surface(fitter, cloud.points);
-  const bool thinned = known.points.rows() < cloud.points.rows();
-  const OutlierFilter whole = thinned ? OutlierFilter(cloud.points) : filter;
-  Buffer<std::uint8_t> outliers = run.outliers();
-  if (thinned) {
-    outliers = whole.lonely();
-    whole.add_far(distances, outliers);
-  }
-  report.spacing = whole.spacing();
   report.to_surface = summarize_followed(distances, outliers, report.outliers);
   report.to_points = measure_to_points(fitter);
   report.unsound = fitter.unsound_faces();
   report.seconds = watch.seconds();
-  Mesh mesh = mesh_from_topology(fitter.topology());
-  mesh.points = fitter.control();
-  state_scheme(fitter.scheme(), mesh);
+  Mesh mesh = frame_mesh({fitter.topology(), fitter.scheme(), fitter.control()});
   return {std::move(mesh), fitter.topology(), fitter.scheme(), std::move(distances), std::move(report)};
 }
 

@@ -4,6 +4,7 @@
 
 #include "batten/fit/fit_report.h"
 #include "batten/fit/point_cloud.h"
+#include "batten/fit/surface_film.h"
 #include "batten/mesh/mesh.h"
 #include "batten/mesh/topology.h"
 #include "batten/progress.h"
@@ -17,9 +18,16 @@ enum class FitStart {
   Sphere  ///< an ellipsoid around the points (fit/start_sphere.h)
 };
 
+/// How the surface is moved.
+enum class FitMethod {
+  SquaredDistance,  ///< by steps that make squared distances and fairness least (fit/surface_fitter.h)
+  Dynamic           ///< by springs that draw an elastic surface (fit/dynamic_fit.h), as in the paper
+};
+
 /// Options of fit_surface(). Lengths are in the unit of the points.
 struct FitOptions {
   Scheme scheme;  ///< Catmull-Clark or Loop
+  FitMethod method = FitMethod::SquaredDistance;
   FitStart start = FitStart::Auto;
   /// The control mesh to start from instead, with its tags; its scheme must fit. Vertex i of it is vertex i of the
   /// result.
@@ -31,6 +39,7 @@ struct FitOptions {
   std::optional<Index> genus;    ///< demanded of the first mesh
   std::optional<double> bridge;  ///< gaps up to this width are closed, wider ones become boundaries (FirstMeshOptions)
   int rounds = 30;               ///< at most so many for each number of control points
+  FrameWatcher watch;            ///< is shown the start, the surface after each round, and the result
 };
 
 /// A control mesh and how well its surface fits.

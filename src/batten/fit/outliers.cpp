@@ -4,7 +4,9 @@
 #include <utility>
 #include <vector>
 
+#include "batten/fit/cloud_samples.h"
 #include "batten/fit/orientation.h"
+#include "batten/fit/thin_cloud.h"
 #include "batten/parallel/parallel.h"
 #include "batten/quantile.h"
 
@@ -21,6 +23,30 @@ double median_neighbour(const Scalars& numbers, const NeighbourTable& neighbours
   for (Index k = 0; k < neighbours.count && neighbours.point(row, k) >= 0; ++k)
     few.push_back(numbers(neighbours.point(row, k)));
   return quantile(few, 0.5);
+}
+
+/// Those of the points that are nearer than `reach` to one of the centres, ascending.
+std::vector<Index> rows_near(const Points& points, const PointTree& centres, double reach) {
+  Buffer<std::uint8_t> near(static_cast<std::size_t>(points.rows()), 0);
+  parallel_for(points.rows(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (std::ptrdiff_t i = begin; i < end; ++i) near[i] = centres.distance(points.row(i)) < reach ? 1 : 0;
+  });
+  std::vector<Index> rows;
+  for (Index i = 0; i < static_cast<Index>(near.size()); ++i) {
+    if (near[i] != 0) rows.push_back(i);
+  }
+  return rows;
+}
+
+/// One point of each place.
+Points different_points(const Points& points) {
+  Points different(points.rows(), 3);
+  Index count = 0;
+  for (const Index row : sorted_rows(points)) {
+    if (count == 0 || different.row(count - 1) != points.row(row)) different.row(count++) = points.row(row);
+  }
+  different.conservativeResize(count, 3);
+  return different;
 }
 
 /// One flag a point, 0 for lonely ones.
@@ -53,8 +79,25 @@ Scalars spacing_of(const NeighbourTable& neighbours, Index size) {
   return spacing;
 }
 
+double sampled_spacing(const Points& points, double reach) {
+  constexpr Index kFew = 20000;
+  constexpr Index kSamples = 200;
+  const bool all = points.rows() <= kFew;
+  const PointTree centres(all ? points : Points(points(thinned_rows(points, kSamples), Eigen::all)));
+  const Points near = different_points(all ? points : Points(points(rows_near(points, centres, reach), Eigen::all)));
+  const NeighbourTable found = find_neighbours(PointTree(near), 1);
+  Buffer<double> nearest;
+  for (Index i = 0; i < static_cast<Index>(near.rows()); ++i) {
+    // All that is as near as half the reach to it is near the centre, too.
+    if (found.point(i, 0) >= 0 && (all || centres.distance(near.row(i)) < 0.5 * reach))
+      nearest.push_back(found.distance(i, 0));
+  }
+  return nearest.empty() ? reach : quantile(nearest, 0.5);
+}
+
 OutlierFilter::OutlierFilter(const Points& points, const Progress& progress)
-    : neighbours_(find_neighbours(PointTree(points), kCloudNeighbours, progress)),
+    : tree_(points),
+      neighbours_(find_neighbours(tree_, kCloudNeighbours, progress)),
       lonely_(static_cast<std::size_t>(points.rows()), 0) {
   Buffer<double> nearest;
   for (Index i = 0; i < static_cast<Index>(points.rows()); ++i) {
@@ -99,6 +142,55 @@ void OutlierFilter::add_far(const Scalars& distances, Buffer<std::uint8_t>& flag
         if (lonely_[other] == 0) around.push_back(distances[other]);
       }
       if (around.empty() || distances[i] > kFar * quantile(around, 0.5)) flags[i] = 1;
+    }
+  });
+}
+
+Buffer<std::uint8_t> OutlierFilter::far_of(const Points& all, const Scalars& distances, const Scalars& own,
+                                           double spacing) const {
+  // 1: far beside this filter's points; 2: beside a lonely one.
+  Buffer<std::uint8_t> flags(static_cast<std::size_t>(all.rows()), 0);
+  parallel_for(all.rows(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    Index found[kCloudNeighbours];
+    double squares[kCloudNeighbours];
+    std::vector<double> around;
+    for (std::ptrdiff_t i = begin; i < end; ++i) {
+      if (!(distances[i] > kFarInSpacings * spacing)) continue;
+      const Index count = tree_.nearest(all.row(i), kCloudNeighbours, found, squares);
+      around.clear();
+      for (Index k = 0; k < count; ++k) {
+        if (lonely_[found[k]] == 0) around.push_back(own[found[k]]);
+      }
+      if (around.empty() || distances[i] > kFar * quantile(around, 0.5)) flags[i] = 1;
+      if (count > 0 && lonely_[found[0]] != 0) flags[i] = 2;
+    }
+  });
+  leave_far_parts(all, distances, flags);
+  return flags;
+}
+
+/// What this filter's points are too far apart to tell: whether the points beside it are as far.
+void OutlierFilter::leave_far_parts(const Points& all, const Scalars& distances, Buffer<std::uint8_t>& flags) const {
+  std::vector<Index> far;
+  for (Index i = 0; i < static_cast<Index>(flags.size()); ++i) {
+    if (flags[i] == 1) far.push_back(i);
+    if (flags[i] == 2) flags[i] = 1;
+  }
+  if (far.empty()) return;
+  const std::vector<Index> rows = rows_near(all, PointTree(all(far, Eigen::all)), spacing_);
+  const PointTree tree(all(rows, Eigen::all));
+  parallel_for(static_cast<std::ptrdiff_t>(far.size()), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    Index found[kCloudNeighbours + 1];
+    double squares[kCloudNeighbours + 1];
+    std::vector<double> around;
+    for (std::ptrdiff_t i = begin; i < end; ++i) {
+      const Index count = tree.nearest(all.row(far[i]), kCloudNeighbours + 1, found, squares);
+      around.clear();
+      for (Index k = 0; k < count && squares[k] < spacing_ * spacing_; ++k) {
+        if (rows[found[k]] != far[i]) around.push_back(distances[rows[found[k]]]);
+      }
+      const bool is_part = static_cast<Index>(around.size()) >= kCloudNeighbours / 2;
+      if (is_part && distances[far[i]] <= kFar * quantile(around, 0.5)) flags[far[i]] = 0;
     }
   });
 }

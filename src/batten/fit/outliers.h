@@ -13,6 +13,11 @@ inline constexpr Index kCloudNeighbours = 12;
 /// The mean distance of each point's nearest few.
 Scalars spacing_of(const NeighbourTable& neighbours, Index size);
 
+/// The median distance between neighbouring points of a large cloud, estimated around 200 of them. reach: some
+/// spacings; no more than a sphere of that radius is looked at around each. Where points are no more than 20,000 all
+/// are taken. O(N).
+double sampled_spacing(const Points& points, double reach);
+
 /// Judges points by their neighbours, built once for a cloud. Memory: 200 bytes a point.
 class OutlierFilter {
  public:
@@ -31,9 +36,17 @@ class OutlierFilter {
   /// spacings: a part of the shape that the surface has not reached is far as a whole. Lonely neighbours do not count.
   void add_far(const Scalars& distances, Buffer<std::uint8_t>& flags) const;
 
+  /// The same for all points of a cloud from which this filter's points were thinned, by the neighbours that they have
+  /// among those: flags points more than one and a half `spacing` (of all) away whose nearest point here is lonely, or
+  /// that are eight times as far as the median of their neighbours here and of those in the whole cloud.
+  /// distances: of all; own: of this filter's points.
+  Buffer<std::uint8_t> far_of(const Points& all, const Scalars& distances, const Scalars& own, double spacing) const;
+
  private:
   void find_lonely(const Points& points);
+  void leave_far_parts(const Points& all, const Scalars& distances, Buffer<std::uint8_t>& flags) const;
 
+  PointTree tree_;
   NeighbourTable neighbours_;
   Buffer<std::uint8_t> lonely_;
   double spacing_ = 0.0;
