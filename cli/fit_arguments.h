@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "batten/fit/fit_surface.h"
 #include "cli/arguments.h"
 
 namespace batten::cli {
@@ -19,6 +20,7 @@ struct FitArguments {
   std::optional<Length> tolerance;
   std::optional<Index> genus;
   std::optional<Length> bridge;
+  std::optional<FitCreases> creases;
   std::string residuals;  ///< the points with their distances
 };
 

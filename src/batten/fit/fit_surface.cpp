@@ -10,11 +10,10 @@
 
 #include "batten/error.h"
 #include "batten/fit/enclosing_sphere.h"
-#include "batten/fit/first_mesh.h"
+#include "batten/fit/fit_beginning.h"
 #include "batten/fit/fit_distances.h"
 #include "batten/fit/fit_schedule.h"
 #include "batten/fit/outliers.h"
-#include "batten/fit/start_sphere.h"
 #include "batten/fit/surface_fitter.h"
 #include "batten/fit/thin_cloud.h"
 #include "batten/mesh/checked_values.h"
@@ -25,7 +24,6 @@ namespace batten {
 
 namespace {
 
-constexpr Index kUsualVertices = 400;
 /// About so many times as many control points has a refined mesh.
 constexpr double kOfRefinedVertices = 4.0;
 /// In the end a point counts with this power of its distance.
@@ -45,22 +43,6 @@ void require_options(const PointCloud& cloud, const FitOptions& options) {
   if (cloud.points.rows() < 4)
     throw Error(ErrorCode::BadArgument,
                 "a fit needs four points or more; there are " + std::to_string(cloud.points.rows()));
-}
-
-Mesh starting_mesh(const PointCloud& cloud, const FitOptions& options, const Progress& progress) {
-  if (options.initial) return *options.initial;
-  if (options.start == FitStart::Sphere) return start_sphere(cloud.points, options.scheme.kind);
-  constexpr Index kLeast = 50;
-  constexpr Eigen::Index kOfFirstVertex = 4;
-  FirstMeshOptions first;
-  first.faces = options.scheme.kind == SchemeKind::Loop ? FaceKind::Triangles : FaceKind::Quads;
-  const Index vertices = options.vertices.value_or(kUsualVertices);
-  // A mesh with a vertex for every few points would take their unevenness for shape: refine later.
-  const bool dense = cloud.points.rows() >= kOfFirstVertex * static_cast<Eigen::Index>(vertices);
-  first.vertices = std::max(kLeast, dense ? vertices : vertices / 4);
-  first.genus = options.genus;
-  first.bridge = options.bridge;
-  return first_mesh(cloud, first, progress).mesh;
 }
 
 /// Shares of the diameter.
@@ -86,11 +68,12 @@ FitErrors errors_of(Buffer<double> distances, double diameter) {
 
 /// The points that the rounds work with, with normals.
 PointCloud working_cloud(const PointCloud& cloud, const FitOptions& options, const Progress& progress) {
-  constexpr Index kLeast = 10000;
+  // Moves of a Loop mesh ask for all that is known of thin parts.
+  const Index least = options.scheme.kind == SchemeKind::Loop ? 20000 : 10000;
   constexpr Index kOfVertex = 12;
   const Index start = options.initial ? options.initial->vertex_count() : 0;
   const Index vertices = std::max(start, options.vertices.value_or(kUsualVertices));
-  const Index most = std::max(kLeast, kOfVertex * std::min(vertices, std::numeric_limits<Index>::max() / kOfVertex));
+  const Index most = std::max(least, kOfVertex * std::min(vertices, std::numeric_limits<Index>::max() / kOfVertex));
   const Buffer<Index> rows = thinned_rows(cloud.points, most);
   PointCloud working;
   working.points = cloud.points(rows, Eigen::all);
@@ -108,14 +91,16 @@ double refined_count(const Topology& topology, SchemeKind kind) {
 /// The rounds of one fit.
 class FitRun {
  public:
-  FitRun(SurfaceFitter& fitter, const FitOptions& options, FitReport& report, const OutlierFilter& filter)
+  FitRun(SurfaceFitter& fitter, const FitOptions& options, FitReport& report, const OutlierFilter& filter, bool settled)
       : fitter_(fitter),
         options_(options),
         report_(report),
         filter_(filter),
         outliers_(filter.lonely()),
-        schedule_(measured(), filter.spacing() / report.diameter) {
+        schedule_(measured(), filter.spacing() / report.diameter, settled),
+        settled_(settled) {
     set_weights(0.0);
+    if (settled) note_best();
   }
 
   /// All rounds and refinements.
@@ -147,6 +132,8 @@ class FitRun {
   }
 
   const Buffer<std::uint8_t>& outliers() const { return outliers_; }
+  /// Of the points that are no outliers, as a share of the diameter.
+  double rms() const { return measured().rms; }
 
  private:
   FitErrors measured() const {
@@ -198,6 +185,12 @@ class FitRun {
   /// All rounds of one control mesh. On the way to the points the surface may pass through itself: held back from that
   /// it would often stay where it is. Rounds that start from the best whole surface then keep it so.
   void go_level(bool last, const Progress& progress) {
+    if (settled_) {
+      go_rounds(Soundness::Whole, progress_within(progress, 0.0, 0.5));
+      return_to_best();
+      if (last && report_.end == FitEnd::Budget) lower_worst(progress_within(progress, 0.5, 1.0));
+      return;
+    }
     go_rounds(Soundness::Unfolded, progress_within(progress, 0.0, 0.5));
     mend();
     if (return_to_best() && last && report_.end != FitEnd::Tolerance) {
@@ -220,7 +213,7 @@ class FitRun {
         return;
       }
       if (!schedule_.is_stuck()) continue;
-      if (leave_out_far()) continue;
+      if (!settled_ && leave_out_far()) continue;
       report_.end = FitEnd::Budget;
       return;
     }
@@ -325,9 +318,74 @@ class FitRun {
   };
   std::optional<BestSurface> best_;
   double gain_ = 1.0;  ///< the share of the objective that the last round took off
+  bool settled_;
   static constexpr int kJudgements = 3;
   int judged_ = 0;  ///< how often outliers were sought for the present control mesh
 };
+
+/// What came of one beginning.
+struct FitAttempt {
+  SurfaceFitter fitter;
+  FitReport report = {};
+  Buffer<std::uint8_t> outliers = {};
+  double rms = 0.0;  ///< share of the diameter
+};
+
+FitAttempt attempt(const PointCloud& known, const FitOptions& options, const OutlierFilter& filter, double diameter,
+                   const Progress& progress) {
+  const FitBeginning start = find_beginning(known, filter, options, progress_within(progress, 0.0, 0.2));
+  FitAttempt made{SurfaceFitter(Topology(start.mesh), options.scheme, start.mesh.points, known,
+                                progress_within(progress, 0.2, 0.22))};
+  made.report.diameter = diameter;
+  made.fitter.attach(progress_within(progress, 0.22, 0.25));
+  FitRun run(made.fitter, options, made.report, filter, start.settled);
+  try {
+    run.go(progress_within(progress, 0.25, 1.0));
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::Cancelled || made.report.rounds.empty()) throw;
+    made.report.end = FitEnd::Cancelled;
+    run.settle();
+  }
+  made.outliers = run.outliers();
+  made.rms = run.rms();
+  return made;
+}
+
+/// True where one surface has fewer faces that are not sound, or as many and lies nearer to the points.
+bool is_better(const FitAttempt& one, const FitAttempt& other) {
+  const auto unsound = [](const SurfaceFitter& fitter) {
+    const SurfacePatches patches(fitter.topology(), fitter.scheme());
+    const Buffer<std::uint8_t> flags =
+        SurfaceGuard(patches, kFineGuardLevels).unsound(fitter.control(), Soundness::Whole);
+    return std::count(flags.begin(), flags.end(), 1);
+  };
+  const auto of_one = unsound(one.fitter);
+  const auto of_other = unsound(other.fitter);
+  if (of_one != of_other) return of_one < of_other;
+  return one.rms < other.rms;
+}
+
+/// Creases that were found under Catmull-Clark stay only where the surface is better with them than without: the edges
+/// of quads may not follow the sharp edges of few points. Loop's moves have judged them one by one.
+FitAttempt judged_attempt(const PointCloud& known, const FitOptions& options, const OutlierFilter& filter,
+                          double diameter, const Progress& progress) {
+  // Most fits end with the first attempt.
+  constexpr double kFirst = 0.9;
+  FitAttempt made = attempt(known, options, filter, diameter, progress_within(progress, 0.0, kFirst));
+  const bool found = options.creases == FitCreases::Auto && !options.initial && made.fitter.topology().has_creases();
+  if (!found || options.scheme.kind == SchemeKind::Loop || made.report.end == FitEnd::Cancelled) return made;
+  FitOptions smooth = options;
+  smooth.creases = FitCreases::None;
+  try {
+    FitAttempt other = attempt(known, smooth, filter, diameter, progress_within(progress, kFirst, 1.0));
+    if (other.report.end != FitEnd::Cancelled && is_better(other, made)) return other;
+    made.report.end = other.report.end == FitEnd::Cancelled ? FitEnd::Cancelled : made.report.end;
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::Cancelled) throw;
+    made.report.end = FitEnd::Cancelled;
+  }
+  return made;
+}
 
 }  // namespace
 
@@ -338,23 +396,14 @@ FitResult fit_surface(const PointCloud& cloud, const FitOptions& options, const 
   report.diameter = 2.0 * enclosing_sphere(cloud.points).radius;
   if (!(report.diameter > 0.0)) throw Error(ErrorCode::BadArgument, "all points are at the same place");
   const PointCloud known = working_cloud(cloud, options, progress_within(progress, 0.0, 0.05));
-  const Mesh start = starting_mesh(known, options, progress_within(progress, 0.05, 0.15));
-  SurfaceFitter fitter(Topology(start), options.scheme, start.points, known, progress_within(progress, 0.15, 0.17));
-  fitter.attach(progress_within(progress, 0.17, 0.18));
-  const OutlierFilter filter(known.points, progress_within(progress, 0.18, 0.2));
-  FitRun run(fitter, options, report, filter);
-  const Progress rounds = progress_within(progress, 0.2, 1.0);
-  try {
-    run.go(rounds);
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::Cancelled || report.rounds.empty()) throw;
-    report.end = FitEnd::Cancelled;
-    run.settle();
-  }
+  const OutlierFilter filter(known.points, progress_within(progress, 0.05, 0.07));
+  FitAttempt made = judged_attempt(known, options, filter, report.diameter, progress_within(progress, 0.07, 1.0));
+  SurfaceFitter& fitter = made.fitter;
+  report = std::move(made.report);
   Scalars distances = measure_to_surface(fitter, cloud.points);
   const bool thinned = known.points.rows() < cloud.points.rows();
   const OutlierFilter whole = thinned ? OutlierFilter(cloud.points) : filter;
-  Buffer<std::uint8_t> outliers = run.outliers();
+  Buffer<std::uint8_t> outliers = std::move(made.outliers);
   if (thinned) {
     outliers = whole.lonely();
     whole.add_far(distances, outliers);
