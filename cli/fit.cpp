@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "batten/error.h"
+#include "batten/fit/crease_counts.h"
 #include "batten/fit/mesh_samples.h"
 #include "batten/io/io.h"
 #include "batten/refine/refinement.h"
@@ -30,6 +31,7 @@ FitOptions options_of(const FitArguments& arguments, const Mesh& points, Job& jo
   options.vertices = arguments.vertices;
   options.rounds = arguments.rounds.value_or(options.rounds);
   options.genus = arguments.genus;
+  if (arguments.creases) options.creases = *arguments.creases;
   const auto in_unit = [&](const Length& length) {
     return length.value * (length.relative ? bounding_diagonal(points.points) : 1.0);
   };
@@ -91,10 +93,12 @@ nlohmann::ordered_json rounds_json(const FitReport& report) {
 
 nlohmann::ordered_json report_json(const FitResult& result) {
   const FitReport& report = result.report;
+  const CreaseCounts creases = count_creases(result.topology);
   return {{"points", result.distances.size()},
           {"vertices", result.topology.vertex_count()},
           {"faces", result.topology.face_count()},
           {"scheme", scheme_json(result.scheme)},
+          {"creases", {{"edges", creases.edges}, {"corners", creases.corners}, {"darts", creases.darts}}},
           {"diameter", report.diameter},
           {"point_spacing", report.spacing},
           {"outliers", report.outliers},
@@ -113,6 +117,11 @@ void print_table(const FitResult& result, const std::string& written, const std:
   if (report.outliers > 0) table.add("", count_of(report.outliers, "outlier", "outliers") + " left out");
   table.add("surface", mesh_text(result.topology));
   table.add("scheme", scheme_text(result.scheme));
+  const CreaseCounts creases = count_creases(result.topology);
+  if (creases.edges > 0)
+    table.add("creases", fmt::format("{}, {}, {}", count_of(creases.edges, "sharp edge", "sharp edges"),
+                                     count_of(creases.corners, "corner", "corners"),
+                                     count_of(creases.darts, "end within the surface", "ends within the surface")));
   table.add("distance", distances_text(report.to_surface, report.diameter) + " from the points to the surface");
   table.add("", distances_text(report.to_points, report.diameter) + " from the surface to the points");
   table.add("", fmt::format("% are of the enclosing sphere's diameter, {:.4g}; points are {:.4g} apart",

@@ -24,6 +24,7 @@ struct FitArguments {
   std::optional<Length> tolerance;
   std::optional<Index> genus;
   std::optional<Length> bridge;
+  std::optional<FitCreases> creases;
   std::string residuals;  ///< the points with their distances
 };
 

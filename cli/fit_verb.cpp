@@ -3,6 +3,20 @@
 
 namespace batten::cli {
 
+namespace {
+
+/// Creases are found with the mesh that they lie on; only a file has some to keep.
+void require_creases(const FitArguments& arguments) {
+  if (!arguments.creases) return;
+  const bool file = arguments.init != kInitAuto && arguments.init != kInitSphere;
+  if (*arguments.creases == FitCreases::Keep && !file)
+    throw UsageError("--creases keep keeps the creases of --init FILE, which is not given");
+  if (*arguments.creases == FitCreases::Auto && arguments.init != kInitAuto)
+    throw UsageError("--creases auto finds sharp edges with a mesh of its own: give keep or none with --init");
+}
+
+}  // namespace
+
 void add_fit(CLI::App& app, FitArguments& arguments, int& status) {
   CLI::App& verb = *app.add_subcommand("fit", "from points to a small, editable subdivision surface");
   add_input_file(verb, "POINTS", arguments.common.input,
@@ -28,6 +42,11 @@ void add_fit(CLI::App& app, FitArguments& arguments, int& status) {
       ->check(whole_number(0));
   add_length(verb, "--bridge", arguments.bridge,
              "close holes in the data up to this width; wider ones become boundaries; a fifth of the longest side");
+  add_choice(
+      verb, "--creases", arguments.creases,
+      Names<FitCreases>{{"auto", FitCreases::Auto}, {"none", FitCreases::None}, {"keep", FitCreases::Keep}},
+      "sharp edges that are found in the points, none, or those that --init FILE has tagged; auto, and keep with "
+      "--init FILE");
   add_choice(verb, "--scheme", arguments.common.scheme,
              Names<SchemeKind>{{"catmull-clark", SchemeKind::CatmullClark}, {"loop", SchemeKind::Loop}},
              "catmull-clark, or that of --init FILE, if not given");
@@ -40,6 +59,7 @@ void add_fit(CLI::App& app, FitArguments& arguments, int& status) {
     require_output(verb, {"--picture", "--report", "--residuals", "--frames"});
     require_with(verb, {"--moments"}, {"--picture"});
     if (arguments.init != kInitAuto) require_alone(verb, "--init", {"--genus", "--bridge"});
+    require_creases(arguments);
     return run_fit(arguments);
   });
 }

@@ -35,6 +35,7 @@
 #include "batten/expand/surface_fields.h"
 #include "batten/expand/surface_noise.h"
 #include "batten/expand/texture.h"
+#include "batten/fit/crease_counts.h"
 #include "batten/fit/enclosing_sphere.h"
 #include "batten/fit/first_mesh.h"
 #include "batten/fit/fit_report.h"

@@ -69,10 +69,35 @@ TEST_F(FitTool, WritesItsRoundsAndAFilm) {
   EXPECT_NE(wrong.err.find("folder"), std::string::npos) << wrong.err;
 }
 
+TEST_F(FitTool, TagsAndCountsTheSharpEdgesOfABox) {
+  Mesh points;
+  const Mesh side = grid(20, 20);
+  for (int face = 0; face < 6; ++face) {
+    const Index first = points.vertex_count();
+    points.points.conservativeResize(first + side.vertex_count(), 3);
+    for (Index v = 0; v < side.vertex_count(); ++v) {
+      points.points(first + v, face / 2) = face % 2 == 0 ? 1.0 : -1.0;
+      points.points(first + v, (face / 2 + 1) % 3) = side.points(v, 0);
+      points.points(first + v, (face / 2 + 2) % 3) = side.points(v, 1);
+    }
+  }
+  write_mesh(path("box.xyz"), points);
+  const Outcome result = run("fit " + path("box.xyz") + " --scheme loop --vertices 60 -o a.obj --report r.json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("sharp edges"), std::string::npos) << result.out;
+  const auto report = nlohmann::json::parse(text_of(path("r.json")));
+  EXPECT_GT(report.at("creases").at("edges"), 12);
+  EXPECT_EQ(report.at("creases").at("edges"), read_mesh(path("a.obj")).creases.size());
+  ASSERT_EQ(run("fit " + path("box.xyz") + " --scheme loop --vertices 60 --creases none -o a.obj").status, 0);
+  EXPECT_TRUE(read_mesh(path("a.obj")).creases.empty());
+}
+
 TEST_F(FitTool, RefusesWhatMakesNoSense) {
   write_mesh(path("points.xyz"), torus_points());
   EXPECT_EQ(run("fit " + path("points.xyz")).status, 2) << "nothing to write";
   EXPECT_EQ(run("fit " + path("points.xyz") + " --init sphere --genus 1 -o a.obj").status, 2);
+  EXPECT_EQ(run("fit " + path("points.xyz") + " --creases keep -o a.obj").status, 2) << "no file to keep them of";
+  EXPECT_EQ(run("fit " + path("points.xyz") + " --init sphere --creases auto -o a.obj").status, 2);
   const Outcome missing = run("fit " + path("points.xyz") + " --init nowhere.obj -o a.obj");
   EXPECT_EQ(missing.status, 1);
   EXPECT_NE(missing.err.find("nowhere.obj"), std::string::npos) << missing.err;

@@ -56,12 +56,16 @@ TEST(SurfaceFilm, MovesFromTheFirstFrameToTheLast) {
   EXPECT_LT((moving.mesh.points + moving.targets.displacements.back() - end.points).cwiseAbs().maxCoeff(), 1e-13);
 }
 
-TEST(SurfaceFilm, RefusesFramesOfAnotherMesh) {
+TEST(SurfaceFilm, BeginsAnewWithAnotherMesh) {
   SurfaceFilm film;
   const Mesh one = torus(8, 6);
   const Mesh other = torus(6, 8);
   film.add({Topology(one), Scheme(), one.points});
-  test::expect_error([&] { film.add({Topology(other), Scheme(), other.points}); }, ErrorCode::BadShape, "film");
+  film.add({Topology(one), Scheme(), one.points});
+  EXPECT_EQ(film.size(), 2);
+  film.add({Topology(other), Scheme(), other.points});
+  EXPECT_EQ(film.size(), 1);
+  EXPECT_EQ(film.on_last_mesh(0), other.points);
   test::expect_error([] { SurfaceFilm().moving(10.0, 1); }, ErrorCode::BadArgument, "frame");
   test::expect_error([&] { film.moving(0.0, 1); }, ErrorCode::BadArgument, "second");
 }

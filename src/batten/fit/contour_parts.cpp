@@ -36,6 +36,10 @@ void keep_faces(Mesh& mesh, const Buffer<std::uint8_t>& kept) {
       smaller.face_vertices.push_back(number[mesh.face_vertices[c]]);
     smaller.face_offsets.push_back(static_cast<Index>(smaller.face_vertices.size()));
   }
+  for (const Crease& crease : mesh.creases) {
+    if (number[crease.a] >= 0 && number[crease.b] >= 0)
+      smaller.creases.push_back({number[crease.a], number[crease.b], crease.sharpness});
+  }
   mesh = std::move(smaller);
 }
 

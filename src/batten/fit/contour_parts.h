@@ -14,7 +14,7 @@ Index drop_unsupported(Mesh& mesh, const Points& places);
 /// The components of a mesh that Topology accepts.
 std::vector<FirstMeshPart> mesh_parts(const Mesh& mesh);
 
-/// Keeps the faces with a mark, drops vertices that no face has then.
+/// Keeps the faces with a mark and creases between vertices that stay, drops vertices that no face has then.
 void keep_faces(Mesh& mesh, const Buffer<std::uint8_t>& kept);
 
 }  // namespace batten

@@ -12,9 +12,13 @@
 #include "batten/fit/contour_gaps.h"
 #include "batten/fit/contour_parts.h"
 #include "batten/fit/dual_contour.h"
+#include "batten/fit/loop_moves.h"
+#include "batten/fit/outliers.h"
 #include "batten/fit/paired_quads.h"
 #include "batten/fit/quad_turns.h"
 #include "batten/fit/relaxed_contour.h"
+#include "batten/fit/sharp_edges.h"
+#include "batten/fit/sharp_normals.h"
 #include "batten/fit/simplified.h"
 #include "batten/mesh/triangulate.h"
 #include "batten/parallel/parallel.h"
@@ -153,6 +157,26 @@ FoundContour coarse_contour(const CloudField& field, const Points& places, const
   return best;
 }
 
+/// Triangles along the sharp edges of the samples, which become creases, or with smooth ones alone.
+void coarsen(Mesh& mesh, const CloudField& field, const FirstMeshOptions& options, const Progress& progress) {
+  if (options.creases == CreaseSearch::None) {
+    mesh = simplified(triangulated(mesh), options.vertices, progress);
+    return;
+  }
+  const CloudSamples& samples = field.samples;
+  const NeighbourTable neighbours = find_neighbours(field.tree, kCloudNeighbours);
+  const Points normals = sharp_normals(samples.points, samples.normals, neighbours);
+  Mesh sharp = simplified(triangulated(mesh), {samples.points, normals, samples.areas}, options.vertices, progress);
+  turn_to_points(sharp, field.tree, normals);
+  sharp.creases = find_sharp_edges(sharp, field.tree, normals, samples.typical);
+  if (options.faces == FaceKind::Quads && !sharp.creases.empty()) {
+    constexpr int kSweeps = 3;
+    sharp = improve_loop_mesh(sharp, samples.points, {options.vertices, true, kSweeps, samples.typical});
+  }
+  if (sharp.creases.empty()) sharp = simplified(triangulated(mesh), options.vertices, progress);
+  mesh = std::move(sharp);
+}
+
 [[noreturn]] void refuse(const FirstMeshOptions& options) {
   if (options.genus)
     throw Error(ErrorCode::NotConverged, "no grid gives a surface of genus " + std::to_string(*options.genus) +
@@ -179,7 +203,7 @@ FoundContour find_contour(const CloudField& field, const FirstMeshOptions& optio
   }
   FoundContour found = std::move(fine->contour);
   relax_contour(found.mesh, field, kRelaxRounds);
-  found.mesh = simplified(triangulated(found.mesh), options.vertices, progress_within(progress, 0.7, 0.9));
+  coarsen(found.mesh, field, options, progress_within(progress, 0.7, 0.9));
   if (options.faces == FaceKind::Triangles) return found;
   found.mesh = paired_quads(found.mesh);
   for (int round = 0; round < kTurnRounds; ++round) {

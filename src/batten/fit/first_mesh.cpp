@@ -64,6 +64,8 @@ void append_contour(FirstMesh& result, const FoundContour& found, const CloudFie
       mesh.face_vertices.push_back(first + found.mesh.face_vertices[c]);
     mesh.face_offsets.push_back(static_cast<Index>(mesh.face_vertices.size()));
   }
+  for (const Crease& crease : found.mesh.creases)
+    mesh.creases.push_back({first + crease.a, first + crease.b, crease.sharpness});
   const std::vector<FirstMeshPart> parts = mesh_parts(found.mesh);
   result.parts.insert(result.parts.end(), parts.begin(), parts.end());
   result.repeated_points += field.samples.repeated;

@@ -16,12 +16,19 @@ enum class QuadPattern {
             ///< another topology
 };
 
+/// Where the first mesh has creases.
+enum class CreaseSearch {
+  None,  ///< it is smooth
+  Auto   ///< along the sharp edges of the data, on which its edges then lie (fit/sharp_edges.h)
+};
+
 /// Options of first_mesh(). Lengths are in the unit of the points.
 struct FirstMeshOptions {
   FaceKind faces = FaceKind::Quads;
   QuadPattern pattern = QuadPattern::Adapted;
-  Index vertices = 400;        ///< about so many; 8 to 1,000,000
-  std::optional<Index> genus;  ///< of all components together: no other is taken
+  CreaseSearch creases = CreaseSearch::None;  ///< not with QuadPattern::Grid
+  Index vertices = 400;                       ///< about so many; 8 to 1,000,000
+  std::optional<Index> genus;                 ///< of all components together: no other is taken
   /// Gaps between points up to this width are closed, wider ones become boundaries. Without: gaps are closed where they
   /// are less than a fifth of the box's longest side wide.
   std::optional<double> bridge;

@@ -24,8 +24,12 @@ constexpr double kOfRefined = 4.0;
 
 }  // namespace
 
-FitSchedule::FitSchedule(const FitErrors& errors, double spacing) : best_(errors), spacing_(spacing) {
-  step_.pull = 1.0;
+double FitSchedule::wanted_pull(const FitErrors& errors) const {
+  return spacing_ > 0.0 ? kPullOfDistance * errors.bulk / spacing_ : 1.0;
+}
+
+FitSchedule::FitSchedule(const FitErrors& errors, double spacing, bool settled) : best_(errors), spacing_(spacing) {
+  step_.pull = settled ? std::min(1.0, wanted_pull(errors)) : 1.0;
   step_.fairness = std::min(kMostFair, std::max(kLeastFairness, kFairnessOfSquares * errors.bulk * errors.bulk));
   choose(errors);
 }
@@ -34,8 +38,7 @@ void FitSchedule::choose(const FitErrors& errors) {
   const double wanted = kFairnessOfSquares * errors.bulk * errors.bulk;
   step_.fairness = std::max(kLeastFairness, std::min(step_.fairness, std::max(wanted, kFall * step_.fairness)));
   step_.evenness = std::max(step_.fairness, std::min(kMostEven, kEvenness * step_.fairness));
-  const double pull = spacing_ > 0.0 ? kPullOfDistance * errors.bulk / spacing_ : 1.0;
-  step_.pull = std::min(step_.pull, std::max(pull, kPullFall * step_.pull));
+  step_.pull = std::min(step_.pull, std::max(wanted_pull(errors), kPullFall * step_.pull));
 }
 
 void FitSchedule::note(const FitErrors& errors) {

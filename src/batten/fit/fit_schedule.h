@@ -9,8 +9,9 @@ namespace batten {
 /// smooth and exact data set it free. It falls by no more than so much a round.
 class FitSchedule {
  public:
-  /// Before the first round. spacing: of the points, as a share of the diameter.
-  FitSchedule(const FitErrors& errors, double spacing);
+  /// Before the first round. spacing: of the points, as a share of the diameter. settled: the surface is near the
+  /// points already and is drawn to them no more than its distances ask for.
+  FitSchedule(const FitErrors& errors, double spacing, bool settled = false);
 
   const FitStep& step() const { return step_; }
   /// After a round.
@@ -25,6 +26,7 @@ class FitSchedule {
  private:
   static constexpr int kIdle = 3;
   void choose(const FitErrors& errors);
+  double wanted_pull(const FitErrors& errors) const;
 
   FitStep step_;
   FitErrors best_;

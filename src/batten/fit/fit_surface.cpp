@@ -12,13 +12,12 @@
 #include "batten/fit/cloud_samples.h"
 #include "batten/fit/dynamic_fit.h"
 #include "batten/fit/enclosing_sphere.h"
-#include "batten/fit/first_mesh.h"
+#include "batten/fit/fit_beginning.h"
 #include "batten/fit/fit_distances.h"
 #include "batten/fit/fit_errors.h"
 #include "batten/fit/fit_levels.h"
 #include "batten/fit/fit_schedule.h"
 #include "batten/fit/outliers.h"
-#include "batten/fit/start_sphere.h"
 #include "batten/fit/surface_fitter.h"
 #include "batten/fit/thin_cloud.h"
 #include "batten/mesh/checked_values.h"
@@ -47,22 +46,6 @@ void require_options(const PointCloud& cloud, const FitOptions& options) {
                 "a fit needs four points or more; there are " + std::to_string(cloud.points.rows()));
 }
 
-Mesh starting_mesh(const PointCloud& cloud, const FitOptions& options, const Progress& progress) {
-  if (options.initial) return *options.initial;
-  if (options.start == FitStart::Sphere) return start_sphere(cloud.points, options.scheme.kind);
-  constexpr Index kLeast = 50;
-  constexpr Eigen::Index kOfFirstVertex = 4;
-  FirstMeshOptions first;
-  first.faces = options.scheme.kind == SchemeKind::Loop ? FaceKind::Triangles : FaceKind::Quads;
-  const Index vertices = options.vertices.value_or(kUsualFitVertices);
-  // A mesh with a vertex for every few points would take their unevenness for shape: refine later.
-  const bool dense = cloud.points.rows() >= kOfFirstVertex * static_cast<Eigen::Index>(vertices);
-  first.vertices = std::max(kLeast, dense ? vertices : vertices / 4);
-  first.genus = options.genus;
-  first.bridge = options.bridge;
-  return first_mesh(cloud, first, progress).mesh;
-}
-
 /// The points that the rounds work with, with normals: in the order of their coordinates, so that the order in which
 /// they are given changes no bit, and one at each place.
 struct WorkingCloud {
@@ -71,11 +54,12 @@ struct WorkingCloud {
 };
 
 WorkingCloud working_cloud(const PointCloud& cloud, const FitOptions& options, const Progress& progress) {
-  constexpr Index kLeast = 10000;
+  // Moves of a Loop mesh ask for all that is known of thin parts.
+  const Index least = options.scheme.kind == SchemeKind::Loop ? 20000 : 10000;
   constexpr Index kOfVertex = 12;
   const Index start = options.initial ? options.initial->vertex_count() : 0;
   const Index vertices = std::max(start, options.vertices.value_or(kUsualFitVertices));
-  const Index most = std::max(kLeast, kOfVertex * std::min(vertices, std::numeric_limits<Index>::max() / kOfVertex));
+  const Index most = std::max(least, kOfVertex * std::min(vertices, std::numeric_limits<Index>::max() / kOfVertex));
   const Buffer<Index> thin = thinned_rows(cloud.points, most);
   WorkingCloud working;
   const Points normals = cloud.normals.rows() > 0 ? Points(cloud.normals(thin, Eigen::all)) : Points(0, 3);
@@ -93,14 +77,16 @@ WorkingCloud working_cloud(const PointCloud& cloud, const FitOptions& options, c
 /// The rounds of one fit.
 class FitRun {
  public:
-  FitRun(SurfaceFitter& fitter, const FitOptions& options, FitReport& report, const OutlierFilter& filter)
+  FitRun(SurfaceFitter& fitter, const FitOptions& options, FitReport& report, const OutlierFilter& filter, bool settled)
       : fitter_(fitter),
         options_(options),
         report_(report),
         filter_(filter),
         outliers_(filter.lonely()),
-        schedule_(measured(), filter.spacing() / report.diameter) {
+        schedule_(measured(), filter.spacing() / report.diameter, settled),
+        settled_(settled) {
     set_weights(0.0);
+    if (settled) note_best();
   }
 
   /// All rounds and refinements.
@@ -128,6 +114,8 @@ class FitRun {
   }
 
   const Buffer<std::uint8_t>& outliers() const { return outliers_; }
+  /// Of the points that are no outliers, as a share of the diameter.
+  double rms() const { return measured().rms; }
 
   void show() const {
     if (options_.watch) options_.watch({fitter_.topology(), fitter_.scheme(), fitter_.control()});
@@ -177,6 +165,12 @@ class FitRun {
   /// All rounds of one control mesh. On the way to the points the surface may pass through itself: held back from that
   /// it would often stay where it is. Rounds that start from the best whole surface then keep it so.
   void go_level(bool last, const Progress& progress) {
+    if (settled_) {
+      go_rounds(Soundness::Whole, progress_within(progress, 0.0, 0.5));
+      return_to_best();
+      if (last && report_.end == FitEnd::Budget) lower_worst(progress_within(progress, 0.5, 1.0));
+      return;
+    }
     go_rounds(Soundness::Unfolded, progress_within(progress, 0.0, 0.5));
     mend();
     if (return_to_best() && last && report_.end != FitEnd::Tolerance) {
@@ -199,7 +193,7 @@ class FitRun {
         return;
       }
       if (!schedule_.is_stuck()) continue;
-      if (leave_out_far()) continue;
+      if (!settled_ && leave_out_far()) continue;
       report_.end = FitEnd::Budget;
       return;
     }
@@ -305,39 +299,95 @@ class FitRun {
   };
   std::optional<BestSurface> best_;
   double gain_ = 1.0;  ///< the share of the objective that the last round took off
+  bool settled_;
   static constexpr int kJudgements = 3;
   int judged_ = 0;  ///< how often outliers were sought for the present control mesh
 };
 
-/// Rounds of attachment and steps. Fills the rounds and the end of the report, and flags the outliers.
-SurfaceFitter moved_in_rounds(const Mesh& start, const PointCloud& known, const FitOptions& options,
-                              const OutlierFilter& filter, FitReport& report, Buffer<std::uint8_t>& outliers,
-                              const Progress& progress) {
-  SurfaceFitter fitter(Topology(start), options.scheme, start.points, known, progress_within(progress, 0.0, 0.03));
-  fitter.attach(progress_within(progress, 0.03, 0.04));
-  FitRun run(fitter, options, report, filter);
-  const Progress rounds = progress_within(progress, 0.04, 1.0);
+/// What came of one beginning.
+struct FitAttempt {
+  SurfaceFitter fitter;
+  FitReport report = {};
+  Buffer<std::uint8_t> outliers = {};
+  double rms = 0.0;  ///< share of the diameter
+};
+
+/// The same by springs.
+FitAttempt drawn_by_springs(const Mesh& start, const PointCloud& known, const FitOptions& options,
+                            const OutlierFilter& filter, double diameter, const Progress& progress) {
+  FitReport report;
+  report.diameter = diameter;
+  Buffer<std::uint8_t> outliers = filter.lonely();
+  const DynamicFit found = fit_dynamic(start, known.points, outliers, options, diameter, report, progress);
+  FitAttempt made{SurfaceFitter(found.topology, found.scheme, found.control, known), std::move(report),
+                  std::move(outliers)};
+  made.fitter.attach();
+  made.rms = fit_errors(made.fitter.distances(), made.outliers, diameter).rms;
+  return made;
+}
+
+FitAttempt attempt(const PointCloud& known, const FitOptions& options, const OutlierFilter& filter, double diameter,
+                   const Progress& progress) {
+  const FitBeginning start = find_beginning(known, filter, options, progress_within(progress, 0.0, 0.2));
+  if (options.method == FitMethod::Dynamic)
+    return drawn_by_springs(start.mesh, known, options, filter, diameter, progress_within(progress, 0.2, 1.0));
+  FitAttempt made{SurfaceFitter(Topology(start.mesh), options.scheme, start.mesh.points, known,
+                                progress_within(progress, 0.2, 0.22))};
+  made.report.diameter = diameter;
+  made.fitter.attach(progress_within(progress, 0.22, 0.25));
+  FitRun run(made.fitter, options, made.report, filter, start.settled);
   try {
-    run.go(rounds);
+    run.go(progress_within(progress, 0.25, 1.0));
   } catch (const Error& error) {
-    if (error.code() != ErrorCode::Cancelled || report.rounds.empty()) throw;
-    report.end = FitEnd::Cancelled;
+    if (error.code() != ErrorCode::Cancelled || made.report.rounds.empty()) throw;
+    made.report.end = FitEnd::Cancelled;
     run.settle();
   }
   run.show();
-  outliers = run.outliers();
-  return fitter;
+  made.outliers = run.outliers();
+  made.rms = run.rms();
+  return made;
 }
 
-/// The same by springs.
-SurfaceFitter drawn_by_springs(const Mesh& start, const PointCloud& known, const FitOptions& options,
-                               const OutlierFilter& filter, FitReport& report, Buffer<std::uint8_t>& outliers,
-                               const Progress& progress) {
-  outliers = filter.lonely();
-  const DynamicFit found = fit_dynamic(start, known.points, outliers, options, report.diameter, report, progress);
-  SurfaceFitter fitter(found.topology, found.scheme, found.control, known);
-  fitter.attach();
-  return fitter;
+/// True where one surface has fewer faces that are not sound, or as many and lies nearer to the points.
+bool is_better(const FitAttempt& one, const FitAttempt& other) {
+  const auto unsound = [](const SurfaceFitter& fitter) {
+    const SurfacePatches patches(fitter.topology(), fitter.scheme());
+    const Buffer<std::uint8_t> flags =
+        SurfaceGuard(patches, kFineGuardLevels).unsound(fitter.control(), Soundness::Whole);
+    return std::count(flags.begin(), flags.end(), 1);
+  };
+  const auto of_one = unsound(one.fitter);
+  const auto of_other = unsound(other.fitter);
+  if (of_one != of_other) return of_one < of_other;
+  return one.rms < other.rms;
+}
+
+/// Creases that were found under Catmull-Clark stay only where the surface is better with them than without: the edges
+/// of quads may not follow the sharp edges of few points. Loop's moves have judged them one by one.
+FitAttempt judged_attempt(const PointCloud& known, const FitOptions& options, const OutlierFilter& filter,
+                          double diameter, const Progress& progress) {
+  // Most fits end with the first attempt.
+  constexpr double kFirst = 0.9;
+  FitAttempt made = attempt(known, options, filter, diameter, progress_within(progress, 0.0, kFirst));
+  const bool found = options.creases == FitCreases::Auto && !options.initial && made.fitter.topology().has_creases();
+  if (!found || options.scheme.kind == SchemeKind::Loop || made.report.end == FitEnd::Cancelled) return made;
+  FitOptions smooth = options;
+  smooth.creases = FitCreases::None;
+  SurfaceFilm rounds;  // which are shown only if they count
+  if (options.watch) smooth.watch = [&](const SurfaceFrame& frame) { rounds.add(frame); };
+  try {
+    FitAttempt other = attempt(known, smooth, filter, diameter, progress_within(progress, kFirst, 1.0));
+    if (other.report.end != FitEnd::Cancelled && is_better(other, made)) {
+      for (Index i = 0; i < rounds.size(); ++i) options.watch(rounds.frame(i));
+      return other;
+    }
+    made.report.end = other.report.end == FitEnd::Cancelled ? FitEnd::Cancelled : made.report.end;
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::Cancelled) throw;
+    made.report.end = FitEnd::Cancelled;
+  }
+  return made;
 }
 
 }  // namespace
@@ -350,12 +400,11 @@ FitResult fit_surface(const PointCloud& cloud, const FitOptions& options, const 
   if (!(report.diameter > 0.0)) throw Error(ErrorCode::BadArgument, "all points are at the same place");
   const WorkingCloud working = working_cloud(cloud, options, progress_within(progress, 0.0, 0.05));
   const PointCloud& known = working.cloud;
-  const Mesh start = starting_mesh(known, options, progress_within(progress, 0.05, 0.15));
-  const OutlierFilter filter(known.points, progress_within(progress, 0.15, 0.17));
-  Buffer<std::uint8_t> left_out;
-  const auto fit = options.method == FitMethod::Dynamic ? drawn_by_springs : moved_in_rounds;
-  const SurfaceFitter fitter =
-      fit(start, known, options, filter, report, left_out, progress_within(progress, 0.17, 1.0));
+  const OutlierFilter filter(known.points, progress_within(progress, 0.05, 0.07));
+  FitAttempt made = judged_attempt(known, options, filter, report.diameter, progress_within(progress, 0.07, 1.0));
+  SurfaceFitter& fitter = made.fitter;
+  const Buffer<std::uint8_t>& left_out = made.outliers;
+  report = std::move(made.report);
   Scalars distances(cloud.points.rows());
   Buffer<std::uint8_t> outliers(static_cast<std::size_t>(cloud.points.rows()));
   report.spacing = filter.spacing();

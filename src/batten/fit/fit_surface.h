@@ -24,6 +24,13 @@ enum class FitMethod {
   Dynamic           ///< by springs that draw an elastic surface (fit/dynamic_fit.h), as in the paper
 };
 
+/// Where the surface is sharp.
+enum class FitCreases {
+  Auto,  ///< along the sharp edges that the points show; those of the tags where a mesh is given to start from
+  None,  ///< nowhere: a given mesh loses its tags
+  Keep   ///< where a given mesh has tags
+};
+
 /// Options of fit_surface(). Lengths are in the unit of the points.
 struct FitOptions {
   Scheme scheme;  ///< Catmull-Clark or Loop
@@ -32,6 +39,7 @@ struct FitOptions {
   /// The control mesh to start from instead, with its tags; its scheme must fit. Vertex i of it is vertex i of the
   /// result.
   std::optional<Mesh> initial;
+  FitCreases creases = FitCreases::Auto;
   /// At most so many control points: the mesh is refined as a whole while it has no more. Without: 400, and an
   /// initial mesh is not refined.
   std::optional<Index> vertices;

@@ -109,7 +109,7 @@ class QuadTurner {
 
   void propose(Index h, std::vector<EdgeTurn>& turns) const {
     constexpr double kLeastGain = 0.1;
-    if (!between_quads(h)) return;
+    if (!between_quads(h) || topology_.edge_sharpness(topology_.edge(h)) > 0.0F) return;
     const Hexagon hexagon = hexagon_of(h);
     Hexagon sorted = hexagon;
     std::sort(sorted.begin(), sorted.end());

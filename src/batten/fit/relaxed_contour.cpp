@@ -113,12 +113,14 @@ void relax_contour(Mesh& mesh, const CloudField& field, int rounds) {
   constexpr int kBoundarySweeps = 4;
   const Topology topology(mesh);
   const double reach = edge_lengths(topology, mesh.points).mean;
+  Buffer<std::uint8_t> creased(static_cast<std::size_t>(mesh.vertex_count()), 0);
+  for (const Crease& crease : mesh.creases) creased[crease.a] = creased[crease.b] = 1;
   Points before;
   const auto sweep = [&](bool boundary) {
     before = mesh.points;
     const auto relax = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
       for (auto vertex = static_cast<Index>(begin); vertex < end; ++vertex) {
-        if (topology.is_boundary_vertex(vertex) != boundary) continue;
+        if (topology.is_boundary_vertex(vertex) != boundary || creased[vertex] != 0) continue;
         mesh.points.row(vertex) = boundary ? boundary_place(topology, before, field, vertex, reach)
                                            : inner_place(topology, before, field, vertex);
       }

@@ -8,6 +8,7 @@
 #include <queue>
 #include <vector>
 
+#include "batten/fit/point_tree.h"
 #include "batten/mesh/topology.h"
 
 namespace batten {
@@ -53,7 +54,7 @@ struct EdgeCollapse {
 
 class Simplifier {
  public:
-  explicit Simplifier(const Mesh& mesh) : points_(mesh.points) {
+  Simplifier(const Mesh& mesh, const SamplePlanes* planes) : points_(mesh.points) {
     const auto vertices = static_cast<std::size_t>(mesh.vertex_count());
     fans_.resize(vertices);
     versions_.assign(vertices, 0);
@@ -64,7 +65,10 @@ class Simplifier {
       for (const Index v : triangles_.back()) fans_[v].push_back(f);
     }
     mark_boundary(Topology(mesh));
-    for (Index f = 0; f < mesh.face_count(); ++f) add_quadrics(f);
+    // Beside the planes of samples those of the triangles only hold what no sample is near to.
+    constexpr double kBesideSamples = 0.02;
+    for (Index f = 0; f < mesh.face_count(); ++f) add_quadrics(f, planes != nullptr ? kBesideSamples : 1.0);
+    if (planes != nullptr) add_samples(*planes);
   }
 
   /// Edges that could not collapse may do so later, where others have changed their surroundings: they wait for the
@@ -100,13 +104,24 @@ class Simplifier {
     }
   }
 
-  void add_quadrics(Index f) {
+  /// Each sample's plane counts at the nearest vertex.
+  void add_samples(const SamplePlanes& planes) {
+    const PointTree tree(points_);
+    for (Eigen::Index i = 0; i < planes.points.rows(); ++i) {
+      Index v = 0;
+      double square = 0.0;
+      tree.nearest(planes.points.row(i), 1, &v, &square);
+      quadrics_[v].add_plane(planes.normals.row(i).transpose(), planes.points.row(i).transpose(), planes.areas[i]);
+    }
+  }
+
+  void add_quadrics(Index f, double share) {
     constexpr double kPointWeight = 0.003;
     const Eigen::Vector3d vector = area_vector(triangles_[f]);
     const double area = vector.norm();
     if (!(area > 0.0)) return;
     for (const Index v : triangles_[f]) {
-      quadrics_[v].add_plane(vector / area, point(v), area / 3.0);
+      quadrics_[v].add_plane(vector / area, point(v), share * area / 3.0);
       quadrics_[v].add_point(point(v), kPointWeight * area / 3.0);
     }
   }
@@ -254,7 +269,12 @@ class Simplifier {
 
 Mesh simplified(const Mesh& mesh, Index vertices, const Progress& progress) {
   if (mesh.vertex_count() <= vertices) return mesh;
-  return Simplifier(mesh).run(vertices, progress);
+  return Simplifier(mesh, nullptr).run(vertices, progress);
+}
+
+Mesh simplified(const Mesh& mesh, const SamplePlanes& planes, Index vertices, const Progress& progress) {
+  if (mesh.vertex_count() <= vertices) return mesh;
+  return Simplifier(mesh, &planes).run(vertices, progress);
 }
 
 }  // namespace batten

@@ -13,4 +13,15 @@ namespace batten {
 /// O(F log F).
 Mesh simplified(const Mesh& mesh, Index vertices, const Progress& progress = {});
 
+/// Planes that a mesh shall lie in, one a sample: N-by-3 points, normals of length 1, and the area of each.
+struct SamplePlanes {
+  const Points& points;
+  const Points& normals;
+  const Scalars& areas;
+};
+
+/// The same with the cost of the samples' planes, which the triangles of a contour cut off at sharp edges: vertices go
+/// to where planes meet. O(F log F + N log F).
+Mesh simplified(const Mesh& mesh, const SamplePlanes& planes, Index vertices, const Progress& progress = {});
+
 }  // namespace batten

@@ -35,9 +35,13 @@ void SurfaceFilm::add(const SurfaceFrame& frame) {
   int level = levels_.empty() ? 0 : levels_.back();
   if (!frames_.empty() && !has_same_faces(frames_.back().topology, frame.topology)) {
     const SurfaceFrame& last = frames_.back();
-    if (!has_same_faces(Refinement(last.topology, last.scheme).child(), frame.topology))
-      throw Error(ErrorCode::BadShape, "a film needs frames of one control mesh or of its refinements");
-    ++level;
+    if (has_same_faces(Refinement(last.topology, last.scheme).child(), frame.topology)) {
+      ++level;
+    } else {
+      frames_.clear();
+      levels_.clear();
+      level = 0;
+    }
   }
   frames_.push_back(frame);
   levels_.push_back(level);

@@ -24,10 +24,10 @@ using FrameWatcher = std::function<void(const SurfaceFrame&)>;
 /// A frame of its own: the control mesh, with its scheme stated.
 Mesh frame_mesh(const SurfaceFrame& frame);
 
-/// Keeps frames. A frame whose control mesh is another than that of the frame before must have that one refined once.
+/// Keeps frames. A film begins anew with a frame whose control mesh is neither that of the frame before nor that one
+/// refined once.
 class SurfaceFilm {
  public:
-  /// Throws Error(BadShape) for a control mesh that is neither that of the frame before nor its refinement.
   void add(const SurfaceFrame& frame);
 
   Index size() const { return static_cast<Index>(frames_.size()); }

@@ -11,7 +11,6 @@ namespace batten {
 
 namespace {
 
-constexpr int kLevels = 2;
 /// The cosine of the angle between normals of facets side by side; narrow bends at sharp edges turn by less.
 constexpr double kFolded = -0.3;
 
@@ -37,8 +36,8 @@ Buffer<Index> faces_of_facets(const SurfacePatches& patches, const Tessellator& 
 
 }  // namespace
 
-SurfaceGuard::SurfaceGuard(const SurfacePatches& patches)
-    : tessellator_(patches, kLevels + (patches.has_first_step() ? 1 : 0)),
+SurfaceGuard::SurfaceGuard(const SurfacePatches& patches, int levels)
+    : tessellator_(patches, levels + (patches.has_first_step() ? 1 : 0)),
       facets_(facets_of(tessellator_)),
       faces_(faces_of_facets(patches, tessellator_)),
       control_faces_(patches.topology().face_count()) {}

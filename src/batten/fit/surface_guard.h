@@ -14,10 +14,15 @@ enum class Soundness {
   Whole      ///< nor does it pass through itself
 };
 
-/// Looks at a tessellation of four steps a side. Built for a connectivity; asking is const.
+/// How fine SurfaceGuard looks: 2^levels steps a side of a face.
+inline constexpr int kGuardLevels = 2;
+/// At sharp edges what passes through itself may be small: a surface that is kept for good is looked at like this.
+inline constexpr int kFineGuardLevels = 3;
+
+/// Looks at a tessellation. Built for a connectivity; asking is const.
 class SurfaceGuard {
  public:
-  explicit SurfaceGuard(const SurfacePatches& patches);
+  explicit SurfaceGuard(const SurfacePatches& patches, int levels = kGuardLevels);
 
   /// One flag a face of the control mesh: between facets side by side in it the normal turns by more than 107
   /// degrees, or, unless only folds are asked for, it passes through another face. control: V-by-3. Where faces fold

@@ -1,0 +1,67 @@
+#include "batten/fit/fit_beginning.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "batten/fit/first_mesh.h"
+#include "batten/fit/fit_levels.h"
+#include "batten/fit/loop_moves.h"
+#include "batten/fit/start_sphere.h"
+
+namespace batten {
+
+namespace {
+
+/// A Loop mesh of the shape of a finer one, by moves that each make the surface better.
+Mesh moved_mesh(const PointCloud& cloud, const OutlierFilter& filter, const FitOptions& options, FirstMeshOptions first,
+                const Progress& progress) {
+  constexpr Index kOfMoved = 2;
+  constexpr Index kLeast = 50;
+  LoopMoveOptions moves;
+  moves.vertices = first.vertices;
+  moves.spacing = filter.spacing();
+  moves.creases = options.creases == FitCreases::Auto;
+  first.vertices = std::max(kLeast, kOfMoved * first.vertices);
+  const Mesh fine = first_mesh(cloud, first, progress_within(progress, 0.0, 0.2)).mesh;
+  std::vector<Eigen::Index> followed;
+  for (Eigen::Index i = 0; i < cloud.points.rows(); ++i) {
+    if (filter.lonely()[static_cast<std::size_t>(i)] == 0) followed.push_back(i);
+  }
+  return improve_loop_mesh(fine, cloud.points(followed, Eigen::all), moves, progress_within(progress, 0.2, 1.0));
+}
+
+}  // namespace
+
+FitBeginning find_beginning(const PointCloud& cloud, const OutlierFilter& filter, const FitOptions& options,
+                            const Progress& progress) {
+  if (options.initial) {
+    Mesh mesh = *options.initial;
+    if (options.creases == FitCreases::None) {
+      mesh.creases.clear();
+      mesh.corners.clear();
+    }
+    return {std::move(mesh), false};
+  }
+  if (options.start == FitStart::Sphere) return {start_sphere(cloud.points, options.scheme.kind), false};
+  constexpr Index kLeast = 50;
+  constexpr Eigen::Index kOfFirstVertex = 4;
+  // Loop surfaces come from finer ones by moves, which take about three milliseconds for a control point.
+  constexpr Index kMostMoved = 2000;
+  FirstMeshOptions first;
+  first.faces = options.scheme.kind == SchemeKind::Loop ? FaceKind::Triangles : FaceKind::Quads;
+  const Index vertices = options.vertices.value_or(kUsualFitVertices);
+  // A mesh with a vertex for every few points would take their unevenness for shape: refine later.
+  const bool dense = cloud.points.rows() >= kOfFirstVertex * static_cast<Eigen::Index>(vertices);
+  first.vertices = std::max(kLeast, dense ? vertices : vertices / 4);
+  first.genus = options.genus;
+  first.bridge = options.bridge;
+  first.creases = options.creases == FitCreases::Auto ? CreaseSearch::Auto : CreaseSearch::None;
+  if (options.scheme.kind == SchemeKind::Loop && dense && vertices <= kMostMoved) {
+    first.vertices = vertices;
+    return {moved_mesh(cloud, filter, options, first, progress), true};
+  }
+  return {first_mesh(cloud, first, progress).mesh, false};
+}
+
+}  // namespace batten
