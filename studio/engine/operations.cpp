@@ -7,12 +7,14 @@
 #include "batten/expand/morph_surface.h"
 #include "batten/fit/fit_surface.h"
 #include "batten/fit/mesh_samples.h"
+#include "batten/fit/surface_film.h"
 #include "batten/interpolate/method_comparison.h"
 #include "batten/io/animation.h"
 #include "batten/mesh/moved_mesh.h"
 #include "batten/mesh/topology.h"
 #include "batten/progress.h"
 #include "batten/tessellate/surface_mesh.h"
+#include "studio/engine/surface.h"
 
 namespace batten::studio {
 namespace {
@@ -22,6 +24,14 @@ Scheme scheme_of(const val& wishes) {
   scheme.kind = static_cast<SchemeKind>(wishes["scheme"].as<int>());
   scheme.boundary = static_cast<BoundaryRule>(wishes["boundary"].as<int>());
   return scheme;
+}
+
+/// A round of a fit as the page draws it.
+val drawing_of(const SurfaceFrame& frame, UpAxis up) {
+  SurfaceWishes plain;
+  plain.scheme = frame.scheme;
+  plain.interpolated = false;
+  return Surface(std::make_shared<MeshFile>(frame_mesh(frame), up), plain, {}).drawing();
 }
 
 }  // namespace
@@ -101,12 +111,20 @@ val compared_methods(const std::shared_ptr<MeshFile>& file, const val& wishes, c
   });
 }
 
-val fitted(const std::shared_ptr<MeshFile>& points, int vertices, double tolerance, const val& report) {
+val fitted(const std::shared_ptr<MeshFile>& points, const std::shared_ptr<MeshFile>& cage, int vertices,
+           double tolerance, const val& report, const val& watch) {
   return guarded([&] {
     FitOptions options;
-    options.vertices = vertices;
     options.tolerance = tolerance;
-    FitResult fit = fit_surface(cloud_of_mesh(points->mesh(), vertices), options, progress_of(report));
+    if (cage) {
+      options.initial = cage->mesh();
+      options.scheme.kind = choose_scheme(cage->mesh()).kind;
+    } else {
+      options.vertices = vertices;
+    }
+    if (!watch.isNull()) options.watch = [&](const SurfaceFrame& frame) { watch(drawing_of(frame, points->up())); };
+    const Index control_points = cage ? cage->mesh().vertex_count() : static_cast<Index>(vertices);
+    FitResult fit = fit_surface(cloud_of_mesh(points->mesh(), control_points), options, progress_of(report));
     val result = val::object();
     result.set("rms", fit.report.to_surface.rms);
     result.set("max", fit.report.to_surface.max);

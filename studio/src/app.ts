@@ -77,6 +77,7 @@ export class App {
     readonly face: Face,
   ) {
     this.engine.onProgress = (done) => face.showProgress(done);
+    this.engine.onFrame = (drawing) => stage.draw(drawing);
     this.engine.onRestart = () => {
       this.inEngine = null;
       this.shown = null;

@@ -5,7 +5,7 @@ import { App } from './app';
 import type { Field } from './engine/types';
 import { clear, keepIn, restore } from './state/keep';
 import { workOfLink } from './state/link';
-import { openFile, openUrl } from './ui/actions';
+import { fitMeshTo, openFile, openUrl } from './ui/actions';
 import { drawColorBar } from './ui/colorbar';
 import { button, byId, h } from './ui/dom';
 import { gallery } from './ui/gallery';
@@ -99,6 +99,7 @@ function main(): void {
       askWhatItIs(file.name, {
         'Open it instead': () => takeFiles(files),
         'Morph into it': () => void file.arrayBuffer().then((bytes) => morpher.open(file.name, new Uint8Array(bytes))),
+        'Fit this mesh to it': () => void file.arrayBuffer().then((bytes) => fitMeshTo(app, file.name, new Uint8Array(bytes))),
         'Measure how far its points are': () => void file.arrayBuffer().then((bytes) => app.measureDistances({ name: file.name, bytes: new Uint8Array(bytes) })),
         Nothing: () => undefined,
       });

@@ -351,14 +351,8 @@ FitAttempt attempt(const PointCloud& known, const FitOptions& options, const Out
 
 /// True where one surface has fewer faces that are not sound, or as many and lies nearer to the points.
 bool is_better(const FitAttempt& one, const FitAttempt& other) {
-  const auto unsound = [](const SurfaceFitter& fitter) {
-    const SurfacePatches patches(fitter.topology(), fitter.scheme());
-    const Buffer<std::uint8_t> flags =
-        SurfaceGuard(patches, kFineGuardLevels).unsound(fitter.control(), Soundness::Whole);
-    return std::count(flags.begin(), flags.end(), 1);
-  };
-  const auto of_one = unsound(one.fitter);
-  const auto of_other = unsound(other.fitter);
+  const Index of_one = one.fitter.unsound_faces();
+  const Index of_other = other.fitter.unsound_faces();
   if (of_one != of_other) return of_one < of_other;
   return one.rms < other.rms;
 }

@@ -2,6 +2,7 @@
 import * as Comlink from 'comlink';
 import type { Engine } from './engine';
 import type { Host } from './worker';
+import type { Drawing } from './types';
 import { EngineError } from './types';
 
 const CANCELLED = 18;
@@ -11,12 +12,13 @@ export interface Started {
   readonly remote: Comlink.Remote<Engine>;
   end(): void;
 }
-export type Start = (stopFlag: Int32Array | null, progress: (done: number) => void) => Promise<Started>;
+/** frame: is given each surface on the way to a result. */
+export type Start = (stopFlag: Int32Array | null, progress: (done: number) => void, frame: (drawing: Drawing) => void) => Promise<Started>;
 
-async function startWorker(stopFlag: Int32Array | null, progress: (done: number) => void): Promise<Started> {
+async function startWorker(stopFlag: Int32Array | null, progress: (done: number) => void, frame: (drawing: Drawing) => void): Promise<Started> {
   const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module' });
   const host = Comlink.wrap<Host>(worker);
-  const engine = await host.start(stopFlag, Comlink.proxy(progress)).catch((error: unknown) => {
+  const engine = await host.start(stopFlag, Comlink.proxy(progress), Comlink.proxy(frame)).catch((error: unknown) => {
     worker.terminate();
     throw error;
   });
@@ -29,6 +31,7 @@ export class EngineClient {
   private stopFlag: Int32Array | null = null;
   private rejectRunning: ((reason: Error) => void) | null = null;
   onProgress: (done: number) => void = () => undefined;
+  onFrame: (drawing: Drawing) => void = () => undefined;
   /** Called after a restart: the engine holds nothing any more. */
   onRestart: () => void = () => undefined;
 
@@ -36,7 +39,7 @@ export class EngineClient {
 
   private start(): Promise<Started> {
     this.stopFlag = globalThis.crossOriginIsolated ? new Int32Array(new SharedArrayBuffer(4)) : null;
-    return this.startEngine(this.stopFlag, (done) => this.onProgress(done));
+    return this.startEngine(this.stopFlag, (done) => this.onProgress(done), (drawing) => this.onFrame(drawing));
   }
 
   /** Runs `work` on the engine. Errors of the library are thrown as EngineError. */

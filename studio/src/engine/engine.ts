@@ -1,5 +1,5 @@
 /** One mesh at work in the engine. Runs in a Worker (worker.ts) and, for tests, in Node. */
-import type { EngineModule, Elastic, MeshFile, ReportProgress, ShapeMorph, Surface } from './module';
+import type { EngineModule, Elastic, MeshFile, ReportProgress, ShapeMorph, Surface, WatchDrawing } from './module';
 import { got } from './module';
 import type { Contents, Corner, Crease, Drawing, ElasticWishes, Field, FitRound, Measure, Method, Moved, Probe, Problem, Report, Shape, SurfaceWishes, Vec3, Written } from './types';
 
@@ -32,6 +32,7 @@ export class Engine {
   constructor(
     private readonly module: EngineModule,
     private readonly report: ReportProgress,
+    private readonly watch: WatchDrawing = null,
   ) {}
 
   private get mesh(): MeshFile {
@@ -218,8 +219,23 @@ export class Engine {
     return got(this.module.bandedPoints(this.mesh, wishes, [...gains]));
   }
 
+  /** A surface to the points. */
   fit(vertices: number, tolerance: number): Fitted {
-    const fitted = got(this.module.fitted(this.mesh, vertices, tolerance, this.report));
+    return this.fitMesh(this.mesh, null, vertices, tolerance);
+  }
+
+  /** The mesh becomes a control mesh whose surface hugs the points of another file; its faces stay. */
+  fitTo(name: string, bytes: Uint8Array, tolerance: number): Fitted {
+    const points = this.read(name, bytes);
+    try {
+      return this.fitMesh(points, this.mesh, 0, tolerance);
+    } finally {
+      points.delete();
+    }
+  }
+
+  private fitMesh(points: MeshFile, cage: MeshFile | null, vertices: number, tolerance: number): Fitted {
+    const fitted = got(this.module.fitted(points, cage, vertices, tolerance, this.report, this.watch));
     const { rms, max, outliers, rounds } = fitted;
     return { contents: this.take(fitted.mesh), rms, max, outliers, rounds };
   }

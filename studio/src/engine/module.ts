@@ -9,6 +9,9 @@ export interface Failure {
 export type Result<T> = T | Failure;
 export type ReportProgress = ((done: number) => boolean) | null;
 
+/** Is shown each surface on the way to a result. */
+export type WatchDrawing = ((drawing: Drawing) => void) | null;
+
 interface Handle {
   delete(): void;
 }
@@ -64,7 +67,7 @@ export interface EngineModule {
   bandedPoints(file: MeshFile, wishes: SurfaceWishes, gains: number[]): Result<{ points: Float64Array; energies: Float64Array }>;
   makeMorph(from: MeshFile, to: MeshFile, wishes: SurfaceWishes): Result<ShapeMorph>;
   comparedMethods(file: MeshFile, wishes: SurfaceWishes, report: ReportProgress): Result<Method[]>;
-  fitted(points: MeshFile, vertices: number, tolerance: number, report: ReportProgress): Result<{ mesh: MeshFile; rms: number; max: number; outliers: number; rounds: FitRound[] }>;
+  fitted(points: MeshFile, cage: MeshFile | null, vertices: number, tolerance: number, report: ReportProgress, watch: WatchDrawing): Result<{ mesh: MeshFile; rms: number; max: number; outliers: number; rounds: FitRound[] }>;
 }
 
 function isFailure(result: unknown): result is Failure {

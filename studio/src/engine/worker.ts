@@ -4,10 +4,12 @@ import createEngine from '@engine/engine.js';
 import wasmUrl from '@engine/engine.wasm?url';
 import { Engine } from './engine';
 import type { EngineModule } from './module';
+import type { Drawing } from './types';
 
 /** Stop is written by the page where memory can be shared; elsewhere the page ends this Worker. */
 let stop: Int32Array | null = null;
 let tell: ((done: number) => void) | null = null;
+let show: ((drawing: Drawing) => void) | null = null;
 let told = 0;
 
 function report(done: number): boolean {
@@ -17,6 +19,10 @@ function report(done: number): boolean {
     tell(done);
   }
   return !stop || Atomics.load(stop, 0) === 0;
+}
+
+function watch(drawing: Drawing): void {
+  show?.(Comlink.transfer(drawing, [...new Set(buffersOf(drawing))]));
 }
 
 /** The memory of all typed arrays in a result. */
@@ -40,11 +46,12 @@ function handingOver(engine: Engine): Engine {
 }
 
 const host = {
-  async start(shared: Int32Array | null, progress: (done: number) => void): Promise<Engine & Comlink.ProxyMarked> {
+  async start(shared: Int32Array | null, progress: (done: number) => void, frame: (drawing: Drawing) => void): Promise<Engine & Comlink.ProxyMarked> {
     stop = shared;
     tell = progress;
+    show = frame;
     const module = (await createEngine({ locateFile: () => wasmUrl })) as EngineModule;
-    return Comlink.proxy(handingOver(new Engine(module, report)));
+    return Comlink.proxy(handingOver(new Engine(module, report, watch)));
   },
 };
 export type Host = typeof host;

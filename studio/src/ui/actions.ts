@@ -1,9 +1,9 @@
 /** What buttons, keys and hands do: each is one step of the history. */
 import type { App } from '../app';
-import type { Contents, Vec3 } from '../engine/types';
+import type { Contents, FitRound, Vec3 } from '../engine/types';
 import { edgeLoop, sharpnessOf, withCreases } from '../state/creases';
 import { linkOf } from '../state/link';
-import type { Source } from '../state/work';
+import type { Source, Work } from '../state/work';
 import { isCloud, PLAIN, vertexCount, wantedNormals, wishesOf, workOf } from '../state/work';
 import { short, sizeOf } from './text';
 
@@ -54,17 +54,44 @@ export async function repairMesh(app: App): Promise<void> {
   if (told) app.face.say(told);
 }
 
-export async function fitSurface(app: App, vertices: number, tolerance: number): Promise<void> {
+interface Fitted {
+  contents: Contents;
+  rms: number;
+  max: number;
+  rounds: FitRound[];
+}
+
+async function fitAndTake(app: App, label: string, fit: (work: Work) => Promise<Fitted>): Promise<readonly FitRound[]> {
   const { work } = app;
-  if (!work) return;
+  if (!work) return [];
   let told = '';
+  let rounds: readonly FitRound[] = [];
   await app.inOrder(async () => {
-    const fitted = await app.withEngine<{ contents: Contents; rms: number; max: number; outliers: number }>((engine) => engine.fit(vertices, tolerance), work);
-    told = `Fitted with ${fitted.contents.points.length / 3} vertices: rms distance ${short(fitted.rms)}, max ${short(fitted.max)}.`;
-    await takeMesh(app, 'fit a surface', 'fit', fitted.contents);
+    app.stage.wear('plain');
+    app.face.showScale(null);
+    try {
+      const fitted = await fit(work);
+      told = `Fitted with ${fitted.contents.points.length / 3} vertices: rms distance ${short(fitted.rms)}, max ${short(fitted.max)}.`;
+      rounds = fitted.rounds;
+      await takeMesh(app, label, 'fit', fitted.contents);
+    } catch (error) {
+      app.redraw(); // what was shown of the rounds goes
+      throw error;
+    }
   });
   await app.idle();
   if (told) app.face.say(told);
+  return rounds;
+}
+
+/** A surface to the points of the work; the picture shows it grow. */
+export async function fitSurface(app: App, vertices: number, tolerance: number): Promise<readonly FitRound[]> {
+  return fitAndTake(app, 'fit a surface', (work) => app.withEngine<Fitted>((engine) => engine.fit(vertices, tolerance), work));
+}
+
+/** The mesh becomes a control mesh whose surface hugs another file's points; its faces stay. */
+export async function fitMeshTo(app: App, name: string, bytes: Uint8Array): Promise<readonly FitRound[]> {
+  return fitAndTake(app, `fit to ${name}`, (work) => app.withEngine<Fitted>((engine) => engine.fitTo(name, bytes, 0), work));
 }
 
 /** Moves all points to what `compute` gives. */

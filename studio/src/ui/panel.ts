@@ -1,13 +1,13 @@
 /** The tools beside the picture. */
 import type { App, Coloring } from '../app';
-import type { BoundaryWord, Method, Vec3 } from '../engine/types';
+import type { BoundaryWord, FitRound, Method, Vec3 } from '../engine/types';
 import { PRESETS } from '../engine/types';
 import { bandsCommand, commandFor, denoiseCommand, fitCommand, morphCommand, repairCommand, textureCommand } from '../state/command';
 import type { Settings, Work } from '../state/work';
 import { isCloud, wantedNormals, wishesOf } from '../state/work';
-import { copyLink, creaseSharpness, denoise, download, downloadNormals, downloadPicture, equalize, fitSurface, nudge, repairMesh, toggleCorner, toggleInterpolation, toggleNormal } from './actions';
+import { copyLink, creaseSharpness, denoise, download, downloadNormals, downloadPicture, equalize, fitMeshTo, fitSurface, nudge, repairMesh, toggleCorner, toggleInterpolation, toggleNormal } from './actions';
 import { button, choice, fileButton, h, section, slider, tick } from './dom';
-import { plotMethods } from './plot';
+import { plotMethods, plotRounds } from './plot';
 import { modelUrl } from './gallery';
 import type { Morpher } from './morpher';
 import type { Sculptor } from './sculptor';
@@ -277,8 +277,11 @@ export class Panel {
   private fitSection(): HTMLElement {
     const { app } = this;
     const vertices = slider('Vertices', { min: 50, max: 3000, step: 50, value: this.budget }, { input: (value) => { this.budget = value; this.refresh(); } });
-    const fit = this.needs(button('Fit', () => void fitSurface(app, this.budget, 0)), () => app.work !== null);
-    return section('Fit', false, h('p', { class: 'note' }, 'Draws a surface to the points; their faces, if any, do not matter.'), vertices.element, h('div', { class: 'buttons' }, fit), this.command((work) => fitCommand(work, this.budget)));
+    const plot = h('div', { class: 'plot', 'aria-label': 'Distances round by round' });
+    const show = (rounds: Promise<readonly FitRound[]>): void => void rounds.then((all) => all.length > 1 && plotRounds(plot, all));
+    const fit = this.needs(button('Fit', () => show(fitSurface(app, this.budget, 0))), () => app.work !== null);
+    const hug = fileButton('Fit this mesh to points', 'Points or a mesh that the surface shall hug', (name, bytes) => show(fitMeshTo(app, name, bytes)));
+    return section('Fit', false, h('p', { class: 'note' }, 'Draws a surface to the points; their faces, if any, do not matter.'), vertices.element, h('div', { class: 'buttons' }, fit), this.command((work) => fitCommand(work, this.budget)), h('div', { class: 'buttons' }, hug.element), plot);
   }
 
   private saveSection(): HTMLElement {

@@ -559,9 +559,32 @@ const tasks = {
     assert.match(await status(page), /points without faces/);
     await expand(page, 'Fit');
     await page.getByLabel('Vertices').fill('150');
+    await page.evaluate(() => {
+      const { engine } = globalThis.studio.app;
+      const draw = engine.onFrame;
+      globalThis.framesSeen = 0;
+      engine.onFrame = (drawing) => { ++globalThis.framesSeen; draw(drawing); };
+    });
     await press(page, 'Fit');
+    assert.ok(await page.evaluate(() => globalThis.framesSeen) > 2, 'the surface is seen to grow');
+    assert.equal(await page.locator('.plot canvas').count() > 0, true);
     assert.match(await status(page), /rms distance/);
     await shoot(page, 'studio-fit');
+  },
+
+  async 'a mesh is fitted to points, and keeps its faces'({ page }) {
+    await openModel(page, 'tripod');
+    await expand(page, 'Fit');
+    await page.getByLabel('Points or a mesh that the surface shall hug').setInputFiles(`${models}tripod-scan.obj`);
+    await page.waitForFunction(() => globalThis.studio.app.store.state.past.at(-1)?.label === 'fit to tripod-scan.obj');
+    await idle(page);
+    await page.waitForFunction(() => document.querySelector('[role=status]').textContent.includes('rms distance'));
+    tool('fit', `${models}tripod-scan.obj`, '--init', `${models}tripod.obj`, '-o', join(scratch, 'hugging.obj'));
+    const own = readObj(readFileSync(join(scratch, 'hugging.obj'), 'utf8'));
+    const away = difference(own, { ...own, points: rows(await points(page)) });
+    assert.ok(away < 1e-6 * diagonal(own), `${away}`);
+    await press(page, 'Undo');
+    assert.match(await status(page), /212 vertices, 210 faces/);
   },
 
   async 'nothing is lost by a reload'({ page, ready }) {

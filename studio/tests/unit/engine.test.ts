@@ -4,13 +4,15 @@ import { beforeAll, describe, expect, it } from 'vitest';
 import createEngine from '@engine/engine.js';
 import { Engine } from '../../src/engine/engine';
 import type { EngineModule } from '../../src/engine/module';
-import type { SurfaceWishes } from '../../src/engine/types';
+import type { Drawing, SurfaceWishes } from '../../src/engine/types';
 import { EngineError } from '../../src/engine/types';
 import { putRows } from '../../src/view/rows';
 
 const root = new URL('../../../', import.meta.url);
 const PLAIN: SurfaceWishes = { scheme: 0, boundary: 2, alpha: 0, interpolate: true, fair: false, smoothing: 0, levels: 2, normals: new Float64Array() };
 let engine: Engine;
+/** The surfaces on the way of the last fits. */
+const frames: Drawing[] = [];
 
 function model(name: string): Uint8Array {
   return readFileSync(new URL(`models/${name}.obj`, root));
@@ -36,7 +38,7 @@ function distance(a: ArrayLike<number>, i: number, b: ArrayLike<number>, j: numb
 
 beforeAll(async () => {
   const wasmBinary = readFileSync(new URL('build/studio/studio/engine/engine.wasm', root));
-  engine = new Engine((await createEngine({ wasmBinary })) as EngineModule, null);
+  engine = new Engine((await createEngine({ wasmBinary })) as EngineModule, null, (drawing) => void frames.push(drawing));
 });
 
 describe('interpolation', () => {
@@ -82,6 +84,26 @@ describe('wanted normals', () => {
     // and in the file
     engine.open('normals.obj', engine.write('obj', -1).bytes);
     expect(distance(engine.show({ ...PLAIN, interpolate: false }).drawing.normals, vertex, wanted, 0)).toBeLessThan(1e-5);
+  });
+});
+
+describe('fits', () => {
+  it('show the surface as it grows', () => {
+    const { points, diagonal } = engine.open('tripod-scan.obj', model('tripod-scan'));
+    frames.length = 0;
+    const { contents, rms, rounds } = engine.fit(150, 0);
+    expect(points.length / 3).toBeGreaterThan(500);
+    expect(rms).toBeLessThan(0.02 * diagonal);
+    expect(frames.length).toBeGreaterThan(rounds.length);
+    const last = frames.at(-1);
+    expect(last?.control.length).toBe(contents.points.length);
+    for (let i = 0; i < contents.points.length; ++i) expect(Math.abs((last?.control[i] ?? NaN) - (contents.points[i] ?? NaN))).toBeLessThan(1e-5 * diagonal);
+  });
+  it('keep the faces of a cage', () => {
+    const cage = engine.open('tripod.obj', model('tripod'));
+    const { contents, rms } = engine.fitTo('tripod-scan.obj', model('tripod-scan'), 0);
+    expect(contents.faceVertices).toEqual(cage.faceVertices);
+    expect(rms).toBeLessThan(0.01 * cage.diagonal);
   });
 });
 
