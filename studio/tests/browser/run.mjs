@@ -69,6 +69,12 @@ async function expand(page, title) {
   const section = page.locator('details', { has: page.getByRole('heading', { name: title, exact: true }) });
   if ((await section.getAttribute('open')) === null) await section.locator('summary').click();
 }
+/** The tripod's scan as points without faces. */
+function scanPoints() {
+  const path = join(scratch, 'tripod-scan.xyz');
+  writeFileSync(path, readObj(readFileSync(`${models}tripod-scan.obj`, 'utf8')).points.map((point) => point.join(' ')).join('\n'));
+  return path;
+}
 /** 36 quads around, 24 around the tube. */
 function fineTorus() {
   const path = join(scratch, 'torus.obj');
@@ -257,7 +263,7 @@ const tasks = {
     await page.mouse.dblclick(middle.x, middle.y);
     await idle(page);
     await page.keyboard.up('Alt');
-    assert.equal(await creases(), 24);
+    assert.ok([24, 36].includes(await creases()), 'a whole loop, around the tube or along it');
   },
 
   async 'the detail that is drawn'({ page }) {
@@ -513,8 +519,7 @@ const tasks = {
   async 'distances of other points are those of the tool'({ page }) {
     await openModel(page, 'tripod');
     await press(page, 'Interpolate');
-    const scan = join(scratch, 'tripod-scan.xyz');
-    writeFileSync(scan, readObj(readFileSync(`${models}tripod-scan.obj`, 'utf8')).points.map((point) => point.join(' ')).join('\n'));
+    const scan = scanPoints();
     await page.getByLabel('Points to measure from the surface').setInputFiles(scan);
     await page.waitForFunction(() => (document.querySelector('[role=status]')?.textContent ?? '').includes('rms'));
     const said = await status(page);
@@ -575,11 +580,12 @@ const tasks = {
   async 'a mesh is fitted to points, and keeps its faces'({ page }) {
     await openModel(page, 'tripod');
     await expand(page, 'Fit');
-    await page.getByLabel('Points or a mesh that the surface shall hug').setInputFiles(`${models}tripod-scan.obj`);
-    await page.waitForFunction(() => globalThis.studio.app.store.state.past.at(-1)?.label === 'fit to tripod-scan.obj');
+    const scan = scanPoints();
+    await page.getByLabel('Points or a mesh that the surface shall hug').setInputFiles(scan);
+    await page.waitForFunction(() => globalThis.studio.app.store.state.past.at(-1)?.label === 'fit to tripod-scan.xyz');
     await idle(page);
     await page.waitForFunction(() => document.querySelector('[role=status]').textContent.includes('rms distance'));
-    tool('fit', `${models}tripod-scan.obj`, '--init', `${models}tripod.obj`, '-o', join(scratch, 'hugging.obj'));
+    tool('fit', scan, '--init', `${models}tripod.obj`, '-o', join(scratch, 'hugging.obj'));
     const own = readObj(readFileSync(join(scratch, 'hugging.obj'), 'utf8'));
     const away = difference(own, { ...own, points: rows(await points(page)) });
     assert.ok(away < 1e-6 * diagonal(own), `${away}`);
