@@ -3,14 +3,10 @@
 
 namespace batten::cli {
 
-void add_segment(CLI::App& app, SegmentArguments& arguments, int& status) {
-  CLI::App& verb = *app.add_subcommand(
-      "segment",
-      "from a label of a volume, or points on a part of it or a seed in it, to a small, smooth control mesh");
-  verb.add_option("VOLUME", arguments.common.input,
-                  "the image: .nii .nii.gz .nrrd .nhdr .mha .mhd, or a folder of DICOM slices")
-      ->required()
-      ->option_text("VOLUME");
+namespace {
+
+/// What the surface starts from, and what draws it.
+void add_starts(CLI::App& verb, SegmentArguments& arguments) {
   verb.add_option("--mask", arguments.mask,
                   "the volume of labels, on a grid of its own; the image itself, if not given")
       ->option_text("VOLUME");
@@ -33,6 +29,31 @@ void add_segment(CLI::App& app, SegmentArguments& arguments, int& status) {
   add_input_file(verb, "--start", arguments.start,
                  "a closed control mesh in the world of --space, which is drawn to the image's edges");
   verb.add_flag("--edges", arguments.edges, "draw the surface of the labels to the image's edges, too");
+}
+
+/// One start, and what a given mesh says itself.
+void exclude_starts(CLI::App& verb) {
+  const std::vector<std::string> starts{"--points", "--seed", "--start"};
+  for (const std::string& start : starts) {
+    for (const std::string& other : starts) {
+      if (start != other) verb.get_option(start)->excludes(verb.get_option(other));
+    }
+  }
+  for (const char* option : {"--vertices", "--genus", "--smoothing", "--scheme"})
+    verb.get_option("--start")->excludes(verb.get_option(option));
+}
+
+}  // namespace
+
+void add_segment(CLI::App& app, SegmentArguments& arguments, int& status) {
+  CLI::App& verb = *app.add_subcommand(
+      "segment",
+      "from a label of a volume, or points on a part of it or a seed in it, to a small, smooth control mesh");
+  verb.add_option("VOLUME", arguments.common.input,
+                  "the image: .nii .nii.gz .nrrd .nhdr .mha .mhd, or a folder of DICOM slices")
+      ->required()
+      ->option_text("VOLUME");
+  add_starts(verb, arguments);
   add_common(verb, arguments.common);
   add_output(verb, arguments.common);
   verb.add_option("--vertices", arguments.vertices, "about so many control points; 386")->check(whole_number(8));
@@ -55,14 +76,7 @@ void add_segment(CLI::App& app, SegmentArguments& arguments, int& status) {
                   {".nii", ".gz", ".nrrd", ".mha"});
   verb.add_flag("--parts", arguments.parts, "with --inside: write the share of each voxel that is inside");
   add_picture(verb, arguments.picture);
-  const std::vector<std::string> starts{"--points", "--seed", "--start"};
-  for (const std::string& start : starts) {
-    for (const std::string& other : starts) {
-      if (start != other) verb.get_option(start)->excludes(verb.get_option(other));
-    }
-  }
-  for (const char* option : {"--vertices", "--genus", "--smoothing", "--scheme"})
-    verb.get_option("--start")->excludes(verb.get_option(option));
+  exclude_starts(verb);
   set_run(verb, arguments.common, status, [&] {
     require_output(verb, {"--picture", "--report", "--overlay", "--inside"});
     require_with(verb, {"--parts"}, {"--inside"});

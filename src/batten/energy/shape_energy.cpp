@@ -216,7 +216,7 @@ Buffer<double> ShapeEnergy::element_gradients(const Points& reference, std::span
   parts_->require_base_points(reference);
   parts_->require_factors(face_factors);
   const FaceElements& elements = parts_->elements;
-  const ConstValuesRef points = reference;  // which outlives what refers to it
+  ConstValuesRef points = reference;  // which outlives what refers to it
   const ShapeElements shapes(parts_->kind, elements, parts_->tables, points);
   Buffer<double> gradients(3 * elements.vertices().size(), 0.0);
   parallel_for(

@@ -1,5 +1,7 @@
 #include "batten/fit/fit_levels.h"
 
+#include <cstdint>
+
 #include "batten/refine/refined_values.h"
 
 namespace batten {
@@ -9,9 +11,9 @@ Index most_fit_vertices(const FitOptions& options) {
 }
 
 int fit_level_count(const Topology& topology, SchemeKind kind, Index most) {
-  constexpr double kOfRefinement = 4.0;
+  constexpr std::int64_t kOfRefinement = 4;
   int levels = 1;
-  for (double count = refined_vertex_count(topology, kind); count <= most; count *= kOfRefinement) ++levels;
+  for (std::int64_t count = refined_vertex_count(topology, kind); count <= most; count *= kOfRefinement) ++levels;
   return levels;
 }
 

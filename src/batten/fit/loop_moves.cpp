@@ -202,8 +202,8 @@ class LoopMover {
   /// allowed.
   void exchange(int sweep) {
     constexpr double kShares[] = {0.15, 0.12, 0.09, 0.06};
-    const double kShare = kShares[std::min(sweep, 3)];
-    const auto most = static_cast<Index>(options_.vertices * (1.0 + kShare));
+    const double share = kShares[std::min(sweep, 3)];
+    const auto most = static_cast<Index>(options_.vertices * (1.0 + share));
     cost_ = vertex_cost();
     std::vector<LoopMove> splits = split_candidates();
     rank(splits, 0.5 * cost_);

@@ -21,7 +21,8 @@ std::int64_t meetings_of(const SurfaceFitter& fitter) {
 
 }  // namespace
 
-GuardedSteps::GuardedSteps(SurfaceFitter& fitter, std::optional<VolumeGrid> within) : fitter_(fitter), within_(within) {
+GuardedSteps::GuardedSteps(SurfaceFitter& fitter, const std::optional<VolumeGrid>& within)
+    : fitter_(fitter), within_(within) {
   if (within_) fitter_.move_to(moved_inside(*within_, fitter_.control()));
   meetings_ = meetings_of(fitter_);
 }

@@ -13,7 +13,7 @@ class GuardedSteps {
  public:
   /// within: control points outside of its voxels, now or after a step, go to their outer faces; as the surface lies in
   /// the hull of its control points, it is inside, too. The fitter must outlive this.
-  explicit GuardedSteps(SurfaceFitter& fitter, std::optional<VolumeGrid> within = {});
+  explicit GuardedSteps(SurfaceFitter& fitter, const std::optional<VolumeGrid>& within = {});
 
   /// Needs SurfaceFitter::attach() first and leaves the surface attached. halvings: how often a shorter step is tried.
   /// False where the step was taken back.
