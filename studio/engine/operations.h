@@ -34,9 +34,9 @@ val banded_points(const std::shared_ptr<MeshFile>& file, const val& wishes, cons
 val make_morph(const std::shared_ptr<MeshFile>& from, const std::shared_ptr<MeshFile>& to, const val& wishes);
 /// Iterations of ours and the papers': [{name, failure, residuals, measuredAfter, iterations, seconds, maxError}].
 val compared_methods(const std::shared_ptr<MeshFile>& file, const val& wishes, const val& report);
-/// A surface to points: {mesh, rms, max, outliers, rounds: [{vertices, rms, max}]}. cage: the control mesh to start from,
-/// which keeps its faces, or null: one of so many vertices is found. watch: a function that is given each round as
-/// Surface::drawing(), or null. When the report says stop after a round, what is there is given.
+/// A surface to points: {mesh, rms, max, outliers, rounds: [{vertices, rms, max}]}. cage: the control mesh to start
+/// from, which keeps its faces, or null: one of so many vertices is found. watch: a function that is given each round
+/// as Surface::drawing(), or null. When the report says stop after a round, what is there is given.
 val fitted(const std::shared_ptr<MeshFile>& points, const std::shared_ptr<MeshFile>& cage, int vertices,
            double tolerance, const val& report, const val& watch);
 

@@ -16,8 +16,8 @@ int drawn_levels(const Topology& topology, int asked) {
   constexpr double kOnScreen = 120'000.0;  // and software draws them in time
   constexpr int kMostOnScreen = 4;
   constexpr double kInMemory = 4e6;
-  const int levels = asked > 0 ? levels_within(topology, kInMemory, asked)
-                               : levels_within(topology, kOnScreen, kMostOnScreen);
+  const int levels =
+      asked > 0 ? levels_within(topology, kInMemory, asked) : levels_within(topology, kOnScreen, kMostOnScreen);
   return std::max(1, levels);
 }
 
