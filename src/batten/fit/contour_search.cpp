@@ -166,14 +166,17 @@ void coarsen(Mesh& mesh, const CloudField& field, const FirstMeshOptions& option
   const CloudSamples& samples = field.samples;
   const NeighbourTable neighbours = find_neighbours(field.tree, kCloudNeighbours);
   const Points normals = sharp_normals(samples.points, samples.normals, neighbours);
-  Mesh sharp = simplified(triangulated(mesh), {samples.points, normals, samples.areas}, options.vertices, progress);
+  Mesh sharp = simplified(triangulated(mesh), {samples.points, normals, samples.areas}, options.vertices,
+                          progress_within(progress, 0.0, 0.4));
   turn_to_points(sharp, field.tree, normals);
   sharp.creases = find_sharp_edges(sharp, field.tree, normals, samples.typical);
   if (options.faces == FaceKind::Quads && !sharp.creases.empty()) {
     constexpr int kSweeps = 3;
-    sharp = improve_loop_mesh(sharp, samples.points, {options.vertices, true, kSweeps, samples.typical});
+    sharp = improve_loop_mesh(sharp, samples.points, {options.vertices, true, kSweeps, samples.typical},
+                              progress_within(progress, 0.4, 0.8));
   }
-  if (sharp.creases.empty()) sharp = simplified(triangulated(mesh), options.vertices, progress);
+  if (sharp.creases.empty())
+    sharp = simplified(triangulated(mesh), options.vertices, progress_within(progress, 0.8, 1.0));
   mesh = std::move(sharp);
 }
 

@@ -11,11 +11,6 @@ namespace {
 Index next_in_face(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
 Index last_in_face(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
-void add(double weight, const FreePlace& from, FreePlace& to) {
-  for (int c = 0; c < 3; ++c) to.fixed[c] += weight * from.fixed[c];
-  for (int c = 0; c < kMostFree; ++c) to.weights[c] += weight * from.weights[c];
-}
-
 }  // namespace
 
 /// The sums that the masks of a vertex are made of.
@@ -36,10 +31,10 @@ LocalLoop::LocalLoop() {
 LocalLoop::Ring LocalLoop::ring_of(const Level& level, Index vertex) const {
   Ring ring;
   const auto take = [&](Index neighbour, bool sharp) {
-    add(1.0, level.places[neighbour], ring.all);
+    add_scaled(1.0, level.places[neighbour], ring.all);
     ++ring.count;
     if (!sharp) return;
-    add(1.0, level.places[neighbour], ring.sharp);
+    add_scaled(1.0, level.places[neighbour], ring.sharp);
     ++ring.sharp_count;
   };
   const auto end_of = [&](Index h) { return level.faces[next_in_face(h) / 3][next_in_face(h) % 3]; };
@@ -66,14 +61,14 @@ FreePlace LocalLoop::moved_vertex(const Level& level, Index vertex, bool limit) 
   if (ring.sharp_count > 2) return level.places[vertex];
   FreePlace place;
   if (ring.sharp_count == 2) {
-    add(limit ? 2.0 / 3.0 : 0.75, level.places[vertex], place);
-    add(limit ? 1.0 / 6.0 : 0.125, ring.sharp, place);
+    add_scaled(limit ? 2.0 / 3.0 : 0.75, level.places[vertex], place);
+    add_scaled(limit ? 1.0 / 6.0 : 0.125, ring.sharp, place);
     return place;
   }
   const int valence = std::clamp(ring.count, 3, kMostValence);
   const double own = (limit ? limit_weights_ : vertex_weights_)[valence];
-  add(own, level.places[vertex], place);
-  add((1.0 - own) / ring.count, ring.all, place);
+  add_scaled(own, level.places[vertex], place);
+  add_scaled((1.0 - own) / ring.count, ring.all, place);
   return place;
 }
 
@@ -111,11 +106,11 @@ void LocalLoop::refine_level(const Level& from, Level& to) {
     const auto corner = [&](Index of) -> const FreePlace& { return from.places[from.faces[of / 3][of % 3]]; };
     FreePlace place;
     const bool sharp = twin < 0 || from.sharp[h] != 0;
-    add(sharp ? 0.5 : 0.375, corner(h), place);
-    add(sharp ? 0.5 : 0.375, corner(next_in_face(h)), place);
+    add_scaled(sharp ? 0.5 : 0.375, corner(h), place);
+    add_scaled(sharp ? 0.5 : 0.375, corner(next_in_face(h)), place);
     if (!sharp) {
-      add(0.125, corner(last_in_face(h)), place);
-      add(0.125, corner(last_in_face(twin)), place);
+      add_scaled(0.125, corner(last_in_face(h)), place);
+      add_scaled(0.125, corner(last_in_face(twin)), place);
     }
     to.places[edges_[h]] = place;
   }

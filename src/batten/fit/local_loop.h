@@ -21,6 +21,12 @@ struct FreePlace {
   std::array<double, kMostFree> weights{};
 };
 
+/// to += weight * from.
+inline void add_scaled(double weight, const FreePlace& from, FreePlace& to) {
+  for (std::size_t c = 0; c < from.fixed.size(); ++c) to.fixed[c] += weight * from.fixed[c];
+  for (std::size_t c = 0; c < from.weights.size(); ++c) to.weights[c] += weight * from.weights[c];
+}
+
 /// Part of a triangle mesh: the first `asked` faces are those whose surface is wanted; all others that touch their
 /// vertices follow. Half-edge 3 f + i runs from corner i of face f to the next.
 struct LocalFaces {

@@ -21,19 +21,26 @@ constexpr int kSteps = 2;
 /// A sharp edge costs this part of a control point.
 constexpr double kSharpShare = 0.2;
 
+void sort_by_gain(std::vector<LoopMove>& moves) {
+  std::sort(moves.begin(), moves.end(), [](const LoopMove& a, const LoopMove& b) {
+    if (a.gain != b.gain) return a.gain > b.gain;
+    return a.a != b.a ? a.a < b.a : a.b < b.b;
+  });
+}
+
 class LoopMover {
  public:
-  LoopMover(const Mesh& mesh, const Points& points, const LoopMoveOptions& options)
-      : options_(options), state_(mesh, points) {}
+  LoopMover(const Mesh& mesh, const Points& points, const LoopMoveOptions& options, const Progress& progress)
+      : options_(options), progress_(progress), state_(mesh, points) {}
 
-  Mesh run(const Progress& progress) {
+  Mesh run() {
     constexpr double kGain = 0.01;
     set_fairness();
     place_all();
     LoopState best = state_;
     double least = -1.0;
     for (int sweep = 0; sweep < options_.sweeps; ++sweep) {
-      report_progress(progress, static_cast<double>(sweep) / options_.sweeps);
+      done_ = static_cast<double>(sweep) / options_.sweeps;
       set_fairness();
       turn_and_sharpen();
       exchange(sweep);
@@ -133,12 +140,9 @@ class LoopMover {
             move.gain = trial.gain(move, 1) - own_cost(move);
           }
         },
-        32);
+        32, progress_within(progress_, done_, done_));
     std::erase_if(moves, [&](const LoopMove& move) { return !(move.gain > least); });
-    std::sort(moves.begin(), moves.end(), [](const LoopMove& a, const LoopMove& b) {
-      if (a.gain != b.gain) return a.gain > b.gain;
-      return a.a != b.a ? a.a < b.a : a.b < b.b;
-    });
+    sort_by_gain(moves);
   }
 
   /// What the sharp edges cost that a move makes, or saves.
@@ -149,6 +153,8 @@ class LoopMover {
 
   /// Makes a move if it gains more than `least` now too.
   bool make(LoopTrial& trial, const LoopMove& move, double least) {
+    constexpr int kOfReport = 32;  // so that whoever waits can stop within milliseconds
+    if (++tried_ % kOfReport == 0) report_progress(progress_, done_);
     if (!(trial.gain(move, kSteps) - own_cost(move) > least)) return false;
     trial.commit(state_);
     return true;
@@ -240,16 +246,16 @@ class LoopMover {
     for (LoopMove& move : moves) {
       for (const Index f : state_.faces_at(move.a, move.b)) move.gain += state_.squares_of(f);
     }
-    std::sort(moves.begin(), moves.end(), [](const LoopMove& a, const LoopMove& b) {
-      if (a.gain != b.gain) return a.gain > b.gain;
-      return a.a != b.a ? a.a < b.a : a.b < b.b;
-    });
+    sort_by_gain(moves);
     moves.resize(static_cast<std::size_t>(std::ceil(kShare * static_cast<double>(moves.size()))));
     return moves;
   }
 
   const LoopMoveOptions& options_;
+  const Progress& progress_;
   LoopState state_;
+  double done_ = 0.0;  ///< of the progress
+  int tried_ = 0;
   double cost_ = 0.0;
   double fairness_ = 0.0;
 };
@@ -258,7 +264,7 @@ class LoopMover {
 
 Mesh improve_loop_mesh(const Mesh& mesh, const Points& points, const LoopMoveOptions& options,
                        const Progress& progress) {
-  return LoopMover(mesh, points, options).run(progress);
+  return LoopMover(mesh, points, options, progress).run();
 }
 
 }  // namespace batten

@@ -13,11 +13,6 @@ namespace {
 
 FreePlace fixed_place(const Eigen::Vector3d& place) { return {{place[0], place[1], place[2]}, {}}; }
 
-void add_scaled(double weight, const FreePlace& from, FreePlace& to) {
-  for (int c = 0; c < 3; ++c) to.fixed[c] += weight * from.fixed[c];
-  for (int c = 0; c < kMostFree; ++c) to.weights[c] += weight * from.weights[c];
-}
-
 /// The neighbours of a vertex, summed over its faces.
 struct RingSum {
   FreePlace all;

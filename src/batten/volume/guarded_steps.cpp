@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "batten/fit/surface_film.h"
 #include "batten/mesh/self_intersections.h"
-#include "batten/refine/refinement.h"
 #include "batten/volume/segment_measures.h"
 
 namespace batten {
@@ -13,8 +13,7 @@ namespace {
 /// Pairs of triangles of the surface that meet.
 std::int64_t meetings_of(const SurfaceFitter& fitter) {
   constexpr std::int64_t kSearchedFaces = 20000;
-  Mesh control = mesh_from_topology(fitter.topology());
-  control.points = fitter.control();
+  const Mesh control = frame_mesh({fitter.topology(), fitter.scheme(), fitter.control()});
   const Mesh fine = surface_of_faces(fitter.topology(), fitter.scheme(), control, kSearchedFaces);
   return find_self_intersections(Topology(fine), fine.points).count;
 }
@@ -59,13 +58,6 @@ Points moved_inside(const VolumeGrid& grid, const Points& points) {
   }
   // Points that are inside keep all their digits.
   return moved ? grid.to_worlds(indices) : points;
-}
-
-Mesh control_mesh(const SurfaceFitter& fitter) {
-  Mesh mesh = mesh_from_topology(fitter.topology());
-  mesh.points = fitter.control();
-  state_scheme(fitter.scheme(), mesh);
-  return mesh;
 }
 
 }  // namespace batten

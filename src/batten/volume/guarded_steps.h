@@ -33,7 +33,4 @@ class GuardedSteps {
 /// Points outside of a grid's voxels moved to the nearest place of its outer faces along its indices.
 Points moved_inside(const VolumeGrid& grid, const Points& points);
 
-/// The mesh of the fitter's control points, with its scheme stated.
-Mesh control_mesh(const SurfaceFitter& fitter);
-
 }  // namespace batten

@@ -6,6 +6,7 @@
 
 #include "batten/error.h"
 #include "batten/fit/first_mesh.h"
+#include "batten/fit/surface_film.h"
 #include "batten/fit/surface_fitter.h"
 #include "batten/volume/guarded_steps.h"
 #include "batten/volume/label_mask.h"
@@ -73,7 +74,7 @@ Segmentation segment_mask(const Volume& mask, const SegmentOptions& options, con
   result.rounds = steps.taken();
   result.cut_steps = steps.cut();
   result.border_rms = rms_of(fitter.distances());
-  result.mesh = control_mesh(fitter);
+  result.mesh = frame_mesh({fitter.topology(), fitter.scheme(), fitter.control()});
   report_progress(progress, 1.0);
   return result;
 }

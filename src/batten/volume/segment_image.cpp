@@ -3,13 +3,14 @@
 #include <cmath>
 #include <optional>
 #include <vector>
-#include "batten/volume/segment.h"
 
 #include "batten/dynamics/surface_samples.h"
 #include "batten/error.h"
+#include "batten/fit/surface_film.h"
 #include "batten/volume/edge_blur.h"
 #include "batten/volume/edge_search.h"
 #include "batten/volume/guarded_steps.h"
+#include "batten/volume/segment.h"
 
 namespace batten {
 
@@ -162,7 +163,7 @@ Segmentation segment_image(const Segmentation& start, const Volume& image, const
   Segmentation result = start;
   result.rounds = rounds.steps().taken();
   result.cut_steps = rounds.steps().cut();
-  result.mesh = control_mesh(rounds.fitter());
+  result.mesh = frame_mesh({rounds.fitter().topology(), rounds.fitter().scheme(), rounds.fitter().control()});
   report_progress(progress, 1.0);
   return result;
 }

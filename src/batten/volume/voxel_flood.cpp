@@ -4,13 +4,6 @@
 
 namespace batten {
 
-VoxelFlags joined_voxels(const VolumeGrid& grid, const VoxelFlags& flags, std::ptrdiff_t start) {
-  Buffer<Index> marks(flags.size(), 0);
-  flood(
-      grid, start, [&](std::ptrdiff_t voxel) { return flags[voxel] != 0; }, 1, marks);
-  return {marks.begin(), marks.end()};
-}
-
 VoxelFlags largest_piece(const VolumeGrid& grid, const VoxelFlags& flags) {
   Buffer<Index> marks(flags.size(), 0);
   Index pieces = 0;

@@ -42,9 +42,6 @@ std::ptrdiff_t flood(const VolumeGrid& grid, std::ptrdiff_t start, const Open& o
   return count;
 }
 
-/// The flagged voxels joined to one of them; none where that one has no flag.
-VoxelFlags joined_voxels(const VolumeGrid& grid, const VoxelFlags& flags, std::ptrdiff_t start);
-
 /// The largest piece of joined voxels alone.
 VoxelFlags largest_piece(const VolumeGrid& grid, const VoxelFlags& flags);
 
