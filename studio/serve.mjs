@@ -26,7 +26,10 @@ const HEADERS = {
 const compress = promisify(brotliCompress);
 const packed = new Map();
 
+/** As the build has packed it, or packed now. */
 async function pack(path, bytes) {
+  const ready = await readFile(`${path}.br`).catch(() => null);
+  if (ready) return ready;
   if (!packed.has(path)) packed.set(path, await compress(bytes, { params: { [constants.BROTLI_PARAM_QUALITY]: 5 } }));
   return packed.get(path);
 }

@@ -19,6 +19,7 @@ EMSCRIPTEN_BINDINGS(batten) {
       .function("setTags", &MeshFile::set_tags)
       .function("repaired", &MeshFile::repaired)
       .function("write", &MeshFile::write)
+      .function("writeAdaptive", &MeshFile::write_adaptive)
       .function("writeNormals", &MeshFile::write_normals);
   class_<Surface>("Surface")
       .smart_ptr<std::shared_ptr<Surface>>("SurfacePointer")

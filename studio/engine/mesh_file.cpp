@@ -1,9 +1,15 @@
 #include "studio/engine/mesh_file.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
+#include "batten/adaptive/adaptive_surface_mesh.h"
 #include "batten/io/io.h"
 #include "batten/io/losses.h"
+#include "batten/medial/medial_boundary.h"
+#include "batten/medial/medial_check.h"
+#include "batten/medial/medial_io.h"
 #include "batten/mesh/check.h"
 #include "batten/mesh/repair.h"
 #include "batten/mesh/topology.h"
@@ -43,6 +49,7 @@ val MeshFile::contents() const {
   result.set("up", static_cast<int>(up_));
   result.set("triangles", all_triangles(mesh_));
   result.set("scheme", static_cast<int>(choose_scheme(mesh_).kind));
+  result.set("origins", typed_array(origins_));
   return result;
 }
 
@@ -100,14 +107,27 @@ val MeshFile::write(const std::string& path, int levels) const {
       const Topology topology(mesh_);
       refined = surface_mesh(topology, choose_scheme(mesh_), mesh_, levels);
     }
-    const Mesh& written = levels >= 0 ? refined : mesh_;
-    WriteOptions options;
-    options.up = up_;
-    write_mesh(path, written, options);
-    val result = val::object();
-    result.set("losses", list(find_losses(path, written), [](const std::string& loss) { return val(loss); }));
-    return result;
+    return write_as(path, levels >= 0 ? refined : mesh_);
   });
+}
+
+val MeshFile::write_adaptive(const std::string& path, double chord) const {
+  return guarded([&] {
+    const Scheme scheme = choose_scheme(mesh_);
+    AdaptiveOptions options;
+    options.chord = chord;
+    options.faces = scheme.kind == SchemeKind::CatmullClark ? FaceKind::Quads : FaceKind::Triangles;
+    return write_as(path, adaptive_surface_mesh(Topology(mesh_), scheme, mesh_, options).mesh);
+  });
+}
+
+val MeshFile::write_as(const std::string& path, const Mesh& written) const {
+  WriteOptions options;
+  options.up = up_;
+  write_mesh(path, written, options);
+  val result = val::object();
+  result.set("losses", list(find_losses(path, written), [](const std::string& loss) { return val(loss); }));
+  return result;
 }
 
 Values wanted_normals_of(const val& numbers, Index vertices) {
@@ -132,8 +152,25 @@ val MeshFile::write_normals(const std::string& path, const val& normals) const {
   });
 }
 
+namespace {
+
+MeshFile medial_file(const std::string& path, const Progress& progress) {
+  const MedialModel model = read_medial(path, progress);
+  MedialBoundary boundary = medial_boundary(model);
+  const SpokeCheck check = check_spokes(boundary);
+  const auto degrees = static_cast<long>(std::lround(180.0 / std::numbers::pi * check.max_tilt));
+  std::string note = "A medial model: " + std::to_string(boundary.mesh.vertex_count()) +
+                     " spokes, which lean by at most " + std::to_string(degrees) + " degrees.";
+  if (!check.crossings.empty())
+    note += " " + std::to_string(check.crossings.size()) + " pairs of neighbouring spokes pass each other.";
+  return {std::move(boundary.mesh), UpAxis::Z, {std::move(note)}, std::move(boundary.origins)};
+}
+
+}  // namespace
+
 val read_mesh_file(const std::string& path, const val& report) {
   return guarded([&] {
+    if (path.ends_with(".json")) return val(std::make_shared<MeshFile>(medial_file(path, progress_of(report))));
     std::vector<std::string> notes;
     Mesh mesh = read_mesh(path, "", progress_of(report), &notes);
     const UpAxis up = find_up_axis(mesh, file_format(path));

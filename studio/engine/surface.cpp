@@ -5,6 +5,7 @@
 
 #include "batten/interpolate/fair_mesh.h"
 #include "batten/interpolate/local_normals.h"
+#include "batten/medial/medial_surface.h"
 #include "batten/mesh/vertex_fields.h"
 #include "batten/tessellate/surface_mesh.h"
 
@@ -71,7 +72,10 @@ void Surface::solve(const Progress& progress) {
     solve_fairly(progress);
     return;
   }
-  if (!interpolator_) interpolator_.emplace(given_, wishes_.scheme, InterpolateOptions(), progress);
+  if (!interpolator_) {
+    const InterpolateOptions options = file_->is_medial() ? medial_interpolation() : InterpolateOptions();
+    interpolator_.emplace(given_, wishes_.scheme, options, progress);
+  }
   Interpolant result = interpolator_->solve(targets_, progress);
   topology_ = result.topology;
   scheme_ = result.scheme;
@@ -107,16 +111,14 @@ void Surface::solve_fairly(const Progress& progress) {
 }
 
 void Surface::prepare() {
-  const auto vertices = tessellator_ ? static_cast<Index>(points_.size() / 3) : 0;
-  if (tessellator_ && vertices == tessellator_->vertex_count() &&
-      patches_->topology().vertex_count() == control_.rows())
-    return;
-  levels_ = drawn_levels(topology_, wishes_.levels);
+  if (patches_ && patches_->topology().vertex_count() == control_.rows()) return;
   patches_.emplace(topology_, scheme_);
-  tessellator_.emplace(*patches_, levels_);
   limit_.reset();
   nearest_.reset();
   moved_.reset();
+  if (is_adaptive()) return;
+  levels_ = drawn_levels(topology_, wishes_.levels);
+  tessellator_.emplace(*patches_, levels_);
   points_.resize(3 * static_cast<std::size_t>(tessellator_->vertex_count()));
   normals_.resize(points_.size());
 }
@@ -130,6 +132,10 @@ val Surface::report() const {
   result.set("diagonal", bounding_diagonal(targets_));
   result.set("scheme", std::string(scheme_name(scheme_.kind)));
   result.set("levels", levels_);
+  if (adaptive_) {
+    result.set("triangles", static_cast<double>(adaptive_->triangles.size() / 3));
+    result.set("unmet", adaptive_->adaptive.unmet);
+  }
   if (!solved_) return result;
   result.set("maxError", solved_->max_error);
   result.set("rmsError", solved_->rms_error);
@@ -148,7 +154,7 @@ val Surface::drawing() {
   return guarded([&] {
     prepare();
     val result = shape();
-    result.set("triangles", typed_array(triangles_of(*tessellator_)));
+    if (tessellator_) result.set("triangles", typed_array(triangles_of(*tessellator_)));
     std::vector<std::uint32_t> edges;
     std::vector<float> sharpness;
     for (Index edge = 0; edge < topology_.edge_count(); ++edge) {
@@ -166,12 +172,19 @@ val Surface::drawing() {
 val Surface::shape() {
   return guarded([&] {
     prepare();
+    val result = val::object();
+    result.set("control", typed_array(to_floats(control_)));
+    if (is_adaptive()) {
+      adaptive_ = draw_adaptively(*patches_, control_, wishes_.chord);
+      result.set("points", typed_array(adaptive_->points));
+      result.set("normals", typed_array(adaptive_->normals));
+      result.set("triangles", typed_array(adaptive_->triangles));
+      return result;
+    }
     tessellator_->limit<float>(control_, points_, normals_);
     moved_.emplace();
-    val result = val::object();
     result.set("points", typed_array(points_));
     result.set("normals", typed_array(normals_));
-    result.set("control", typed_array(to_floats(control_)));
     return result;
   });
 }
@@ -179,7 +192,7 @@ val Surface::shape() {
 val Surface::change() {
   return guarded([&] {
     prepare();
-    if (!moved_) return shape();
+    if (!moved_ || is_adaptive()) return shape();
     std::vector<Index> moved = std::exchange(*moved_, {});
     std::sort(moved.begin(), moved.end());
     moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
@@ -290,6 +303,7 @@ val make_surface(const std::shared_ptr<MeshFile>& file, const val& wishes, const
     asked.fair = wishes["fair"].as<bool>();
     asked.smoothing = wishes["smoothing"].as<double>();
     asked.levels = wishes["levels"].as<int>();
+    asked.chord = wishes["chord"].as<double>();
     asked.normals = wanted_normals_of(wishes["normals"], file->mesh().vertex_count());
     return val(std::make_shared<Surface>(file, asked, progress_of(report)));
   });

@@ -9,6 +9,7 @@
 #include "batten/interpolate/interpolation_updates.h"
 #include "batten/nearest/nearest_point.h"
 #include "batten/tessellate/tessellator.h"
+#include "studio/engine/adaptive_drawing.h"
 #include "studio/engine/mesh_file.h"
 
 namespace batten::studio {
@@ -20,6 +21,7 @@ struct SurfaceWishes {
   bool fair = false;         ///< the fairest of those (interpolate/fair_interpolation.h)
   double smoothing = 0.0;    ///< FairOptions::smoothing
   int levels = 0;            ///< of the mesh that is drawn; 0: as suits the screen
+  double chord = 0.0;        ///< instead: how far what is drawn may be from the surface; 0: any
   Values normals = {};       ///< wanted ones (interpolate/wanted_normals.h), or no rows; for interpolated surfaces
 };
 
@@ -29,11 +31,13 @@ class Surface {
   /// Throws what solving throws.
   Surface(std::shared_ptr<const MeshFile> file, const SurfaceWishes& wishes, const Progress& progress);
 
-  /// {vertices, faces, diagonal, maxError, worstVertex, method, iterations, residuals, refined, moved, note}.
+  /// {vertices, faces, diagonal, maxError, worstVertex, method, iterations, residuals, refined, moved, note}. After
+  /// drawing() under a tolerance also {triangles, unmet}.
   val report() const;
   /// {points, normals, triangles, control, edges, sharpness}: floats; edges as pairs of control vertices.
   val drawing();
-  /// {points, normals, control} where the connectivity is that of the last drawing().
+  /// {points, normals, control} where the connectivity is that of the last drawing(); under a tolerance its triangles
+  /// are other ones, and are given too.
   val shape();
   /// What moves changed since the last shape(), drawing() or change(): {vertices, points, normals, moved, control},
   /// where `points` and `normals` are those of the drawn `vertices` and `control` are the control points `moved`; or
@@ -67,6 +71,8 @@ class Surface {
   void take(const InterpolationUpdates& updates);
   void prepare();
   Mesh control_mesh() const;
+  /// The Butterflies have no closed form that a distance could be measured from.
+  bool is_adaptive() const { return wishes_.chord > 0.0 && !is_interpolating(scheme_.kind); }
   bool has_normals() const { return wishes_.interpolated && wishes_.normals.rows() > 0; }
   FairOptions fair_options() const;
 
@@ -83,7 +89,8 @@ class Surface {
   std::optional<double> worst_angle_;  ///< between normals wanted and reached, in radians
   std::string note_;
   int levels_ = 1;
-  std::optional<Tessellator> tessellator_;
+  std::optional<Tessellator> tessellator_;   ///< where there is no tolerance
+  std::optional<AdaptiveDrawing> adaptive_;  ///< where there is one
   std::optional<SurfacePatches> patches_;
   std::optional<LimitSurface> limit_;
   std::optional<NearestPoints> nearest_;
@@ -93,8 +100,8 @@ class Surface {
   std::vector<float> normals_;
 };
 
-/// wishes: {scheme, boundary, alpha, interpolate, fair, smoothing, levels, normals}; normals: four numbers each, a
-/// vertex and the direction wanted there.
+/// wishes: {scheme, boundary, alpha, interpolate, fair, smoothing, levels, chord, normals}; normals: four numbers each,
+/// a vertex and the direction wanted there.
 val make_surface(const std::shared_ptr<MeshFile>& file, const val& wishes, const val& report);
 
 }  // namespace batten::studio

@@ -41,13 +41,18 @@ val Surface::field(const std::string& word) {
   return guarded([&] {
     prepare();
     const FieldWish wish = field_of(word, scheme_.kind);
-    return colored(surface_field({topology_, scheme_, control_, &targets_}, wish.field, levels_), wish.scale);
+    const FieldSurface surface{topology_, scheme_, control_, &targets_};
+    return colored(adaptive_ ? adaptive_field(surface, wish.field, *adaptive_, wishes_.chord)
+                             : surface_field(surface, wish.field, levels_),
+                   wish.scale);
   });
 }
 
 val Surface::texture(int preset, int seed) {
   return guarded([&] {
     prepare();
+    if (adaptive_)
+      throw Error(ErrorCode::BadArgument, "a texture is drawn by steps of detail, not by a tolerance: set it to none");
     PresetOptions options;
     options.seed = static_cast<std::uint64_t>(seed);
     TextureOptions asked;

@@ -5,7 +5,7 @@ import { PRESETS, SCHEMES } from './engine/types';
 import type { Kept } from './state/store';
 import { Store } from './state/store';
 import type { Settings, Source, Work } from './state/work';
-import { isCloud, PLAIN, vertexCount, wantedNormals, wishesOf, withNormal, workOf } from './state/work';
+import { faceCount, isCloud, isMedial, PLAIN, vertexCount, wantedNormals, wishesOf, withNormal, workOf } from './state/work';
 import type { Stage } from './view/stage';
 import { counted, short, sizeOf } from './ui/text';
 import { wireframe } from './view/wireframe';
@@ -60,6 +60,8 @@ export class App {
   beside: 'none' | SchemeWord = 'none';
   /** Steps of refinement that are drawn; 0: as many as suit the screen. */
   detail = 0;
+  /** How far what is drawn may be from the surface, as a share of the size, instead; 0: any. */
+  tolerance = 0;
   /** Of textures. */
   seed = 1;
   picked: number | null = null;
@@ -68,6 +70,8 @@ export class App {
   private inEngine: Work | null = null;
   private shown: Work | null = null;
   private framed: Source | null = null;
+  /** What the reader says of a file. */
+  private notes: { source: Source; text: string } | null = null;
   private turning: Vec3 | null = null;
   private queue: Promise<unknown> = Promise.resolve();
   private dragging: { vertex: number; wanted: Vec3 | null; to: Vec3; running: Promise<void> } | null = null;
@@ -118,12 +122,14 @@ export class App {
   async open(source: Source, settings: Settings = PLAIN): Promise<void> {
     await this.inOrder(async () => {
       const contents = await this.engine.run((engine) => engine.open(source.name, source.bytes));
-      const work = workOf(source, contents, settings);
+      const opened = workOf(source, contents, settings);
+      // The surface of a medial model is the one through its spokes' ends.
+      const work = isMedial(opened) && settings === PLAIN ? { ...opened, settings: { ...PLAIN, interpolate: true } } : opened;
+      this.notes = { source, text: contents.notes.map((note) => ` ${note}`).join('') };
       this.inEngine = work;
       this.shown = null;
       this.picked = null;
       this.store.run(`open ${source.name}`, { kind: 'work', work });
-      if (contents.notes[0]) this.face.say(contents.notes[0]);
     });
     await this.idle();
   }
@@ -164,8 +170,13 @@ export class App {
     await this.inOrder(() => this.show());
   }
 
+  /** In the file's unit; textures are drawn by steps. */
+  chordOf(work: Work): number {
+    return PRESETS.some((word) => word === this.coloring) ? 0 : this.tolerance * work.diagonal;
+  }
+
   private drawn(work: Work): SurfaceWishes {
-    return { ...wishesOf(work), levels: this.detail };
+    return { ...wishesOf(work), levels: this.detail, chord: this.chordOf(work) };
   }
 
   private async show(): Promise<void> {
@@ -187,7 +198,7 @@ export class App {
       this.stage.frame(work.points, work.up);
       this.framed = work.source;
     }
-    this.stage.drawPoints(work.points);
+    this.stage.drawPoints(work.points, work.origins);
     this.drawArrows(work);
     this.stage.points.pick(this.picked);
     this.stage.cloud.clear();
@@ -198,7 +209,7 @@ export class App {
       this.stage.clearSurface();
       this.shown = work;
       this.face.showScale(null);
-      this.face.say(`${work.source.name}: ${counted(vertexCount(work), 'point', 'points')} without faces. Fit draws a surface to them.`);
+      this.face.say(`${work.source.name}: ${counted(vertexCount(work), 'point', 'points')} without faces. Fit draws a surface to them.${this.notes?.source === work.source ? this.notes.text : ''}`);
       this.face.refresh();
       return;
     }
@@ -239,15 +250,23 @@ export class App {
     this.face.say(`Beside it: ${report.scheme} of the points as control mesh. It leaves the points by up to ${short(left)}, ${short((100 * left) / work.diagonal)} % of the size.`);
   }
 
+  /** What a tolerance has come to. */
+  private drawnText(work: Work, report: Report): string {
+    if (this.chordOf(work) === 0) return '';
+    if (report.triangles === undefined) return ' Between its vertices it has no closed form to measure a distance from: drawn by steps.';
+    return ` Drawn in ${counted(report.triangles, 'triangle', 'triangles')}, nowhere farther than ${short(this.chordOf(work))} from the surface.`;
+  }
+
   private resultText(work: Work, report: Report): string {
-    const size = sizeOf(work);
+    const size = isMedial(work) ? `the ends of ${counted(vertexCount(work), 'spoke', 'spokes')}, ${counted(faceCount(work), 'face', 'faces')}` : sizeOf(work);
+    const drawn = this.drawnText(work, report) + (this.notes?.source === work.source ? this.notes.text : '');
     if (report.maxError === undefined) {
       const how = report.scheme.includes('Butterfly') ? `${report.scheme}, which passes through the points` : `${report.scheme} surface of this control mesh`;
-      return `${work.source.name}: ${size}. ${how}.`;
+      return `${work.source.name}: ${size}. ${how}.${drawn}`;
     }
     const normals = report.worstAngle === undefined ? '' : ` Normals within ${short((180 / Math.PI) * report.worstAngle)} degrees.`;
     const refined = report.isRefined ? ` Refined: ${counted(report.vertices, 'control point', 'control points')}.` : '';
-    return `${work.source.name}: ${size}. Interpolated: max error ${short(report.maxError)}, ${counted(report.iterations ?? 0, 'iteration', 'iterations')}.${normals}${refined}`;
+    return `${work.source.name}: ${size}. Interpolated: max error ${short(report.maxError)}, ${counted(report.iterations ?? 0, 'iteration', 'iterations')}.${normals}${refined}${drawn}`;
   }
 
   /** Shows other points on the same faces, or other settings; the work stays. For use inside inOrder(). */
@@ -258,7 +277,7 @@ export class App {
     await this.sync(shown);
     const { drawing } = await this.engine.run((engine) => engine.show(this.drawn(shown)));
     this.stage.draw(drawing);
-    this.stage.drawPoints(shown.points);
+    this.stage.drawPoints(shown.points, shown.origins);
     this.shown = null;
   }
 
@@ -340,6 +359,7 @@ export class App {
   /** The point goes to a place; the surface follows as fast as the engine can: places in between are left out. */
   dragTo(vertex: number, to: Vec3): void {
     this.stage.points.move(vertex, to);
+    this.stage.spokes.move(vertex, to);
     this.stage.arrows.change(vertex, { at: to });
     this.stage.touch();
     if (this.dragging) {

@@ -18,7 +18,7 @@ import { askPlace } from './ui/probe';
 import { Sculptor } from './ui/sculptor';
 import { Stage } from './view/stage';
 
-const FILES = '.obj,.ply,.off,.stl,.glb,.xyz';
+const FILES = '.obj,.ply,.off,.stl,.glb,.xyz,.json';
 
 function isDark(): boolean {
   const chosen = document.documentElement.dataset['theme'];
@@ -85,7 +85,7 @@ function main(): void {
 
   byId('welcome').append(
     h('h2', {}, 'Surfaces through points'),
-    h('p', {}, 'Open or drop a mesh (OBJ, PLY, OFF, STL, GLB) or points (XYZ), or begin with one of these. Drag a point and the surface follows. All is computed on this machine: no file leaves it.'),
+    h('p', {}, 'Open or drop a mesh (OBJ, PLY, OFF, STL, GLB), points (XYZ) or a medial model (.srep.json), or begin with one of these. Drag a point and the surface follows. All is computed on this machine: no file leaves it.'),
     gallery((example) => void openUrl(app, example.name, example.url)),
   );
   const ask = (at: readonly [number, number, number]): void => void askPlace(app, probe, at);

@@ -183,12 +183,13 @@ export class Engine {
     }
   }
 
-  /** The control mesh as a file, or with `levels` 0 or more the surface as a mesh. */
-  write(format: string, levels: number): Written {
+  /** The control mesh as a file, or with `levels` 0 or more the surface as a mesh; or with a chord as an adaptive one. */
+  write(format: string, levels: number, chord: number): Written {
     const control = this.surface ? got(this.surface.controlFile()) : null;
     const path = `/output.${format}`;
     try {
-      const { losses } = got((control ?? this.mesh).write(path, levels));
+      const file = control ?? this.mesh;
+      const { losses } = got(chord > 0 ? file.writeAdaptive(path, chord) : file.write(path, levels));
       return { bytes: this.module.FS.readFile(path), losses };
     } finally {
       control?.delete();
@@ -254,7 +255,7 @@ export class Engine {
   }
   private showSculpture(control: MeshFile): Shown {
     const { scheme, boundary } = this.elasticWishes ?? { scheme: 0, boundary: 0 };
-    const plain: SurfaceWishes = { scheme, boundary, alpha: 0, interpolate: false, fair: false, smoothing: 0, levels: 0, normals: new Float64Array() };
+    const plain: SurfaceWishes = { scheme, boundary, alpha: 0, interpolate: false, fair: false, smoothing: 0, levels: 0, chord: 0, normals: new Float64Array() };
     const surface = got(this.module.makeSurface(control, plain, null));
     this.sculpted?.delete();
     this.sculpted = surface;

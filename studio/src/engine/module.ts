@@ -22,6 +22,7 @@ export interface MeshFile extends Handle {
   setTags(creases: Float64Array, corners: Float64Array): Result<null>;
   repaired(weld: number): Result<{ changes: string[]; mesh: MeshFile }>;
   write(path: string, levels: number): Result<{ losses: string[] }>;
+  writeAdaptive(path: string, chord: number): Result<{ losses: string[] }>;
   writeNormals(path: string, normals: Float64Array): Result<null>;
 }
 export interface Surface extends Handle {

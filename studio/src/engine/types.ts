@@ -33,6 +33,8 @@ export interface Contents {
   up: number;
   triangles: boolean;
   scheme: number;
+  /** Where the spokes of a medial model start that end at the points; or none. */
+  origins: Float64Array;
 }
 
 export interface Problem {
@@ -49,6 +51,8 @@ export interface SurfaceWishes {
   fair: boolean;
   smoothing: number;
   levels: number;
+  /** How far what is drawn may be from the surface, instead of levels; 0: any. */
+  chord: number;
   /** Wanted normals, four numbers each: a vertex and a direction. */
   normals: Float64Array;
 }
@@ -61,6 +65,8 @@ export interface Report {
   diagonal: number;
   scheme: string;
   levels: number;
+  /** What was drawn under a tolerance. */
+  triangles?: number;
   maxError?: number;
   rmsError?: number;
   maxMovement?: number;
@@ -91,6 +97,8 @@ export interface Change extends Shape {
   vertices?: Int32Array;
   /** Whose control points are in `control`. */
   moved?: Int32Array;
+  /** Under a tolerance other ones each time. */
+  triangles?: Uint32Array;
 }
 
 export interface Moved extends Change {

@@ -1,6 +1,6 @@
 /** The tool's commands that do the same to a file. */
 import type { Settings, Work } from './work';
-import { isCloud, schemeNumber, wantedNormals } from './work';
+import { isCloud, isMedial, schemeNumber, wantedNormals } from './work';
 
 function quoted(name: string): string {
   return /^[\w./-]+$/.test(name) ? name : `'${name.replaceAll("'", `'\\''`)}'`;
@@ -24,11 +24,21 @@ function command(verb: string, work: Work, output: string, ...options: string[])
   return ['batten', verb, quoted(work.source.name), '-o', output, ...options].join(' ');
 }
 
-export function commandFor(work: Work, budget: number): string {
+/** The medial verb has one surface: Catmull-Clark's through the spokes' ends. */
+function medialCommand(work: Work): string | null {
+  const { settings } = work;
+  const isPlain = settings.interpolate && !settings.fair && settings.scheme === 'auto' && settings.alpha === 0 && wantedNormals(settings).length === 0;
+  return isPlain ? command('medial', work, 'control.obj') : null;
+}
+
+/** tolerance: App.tolerance. Null where the tool has no such command. */
+export function commandFor(work: Work, budget: number, tolerance: number): string | null {
   const { settings } = work;
   if (isCloud(work)) return fitCommand(work, budget);
+  if (isMedial(work)) return medialCommand(work);
   const scheme = schemeOptions(work);
-  if (!settings.interpolate) return command('subdivide', work, 'surface.obj', '--limit', '--levels', '2', ...scheme);
+  const fine = tolerance > 0 ? ['--chord', `${Number((100 * tolerance).toPrecision(6))}%`] : ['--limit', '--levels', '2'];
+  if (!settings.interpolate) return command('subdivide', work, 'surface.obj', ...fine, ...scheme);
   const normals = wantedNormals(settings).length > 0 ? ['--normals', 'normals.ply'] : [];
   return command('interpolate', work, 'control.obj', ...scheme, ...fairOptions(settings), ...normals);
 }

@@ -42,6 +42,8 @@ export interface Work {
   readonly diagonal: number;
   readonly up: number;
   readonly fileScheme: number;
+  /** Of a medial model, whose spokes end at the points: where they start; work kept by earlier pages has none. */
+  readonly origins?: Float64Array;
   readonly settings: Settings;
 }
 
@@ -54,6 +56,11 @@ export function faceCount(work: Work): number {
 /** True for a cloud: points without faces. */
 export function isCloud(work: Work): boolean {
   return faceCount(work) === 0;
+}
+
+/** True for a medial model: the points are its spokes' ends. */
+export function isMedial(work: Work): boolean {
+  return (work.origins?.length ?? 0) > 0;
 }
 
 function tuples(flat: Float64Array, size: number): number[][] {
@@ -71,6 +78,7 @@ export function workOf(source: Source, contents: Contents, settings: Settings): 
     diagonal: contents.diagonal,
     up: contents.up,
     fileScheme: contents.scheme,
+    origins: contents.origins,
     settings,
   };
 }
@@ -99,6 +107,7 @@ export function wishesOf(work: Work): SurfaceWishes {
     fair: settings.interpolate && settings.fair,
     smoothing: settings.smoothing * work.diagonal,
     levels: 0,
+    chord: 0,
     normals: Float64Array.from(settings.interpolate ? wantedNormals(settings).flatMap(({ vertex, direction }) => [vertex, ...direction]) : []),
   };
 }

@@ -177,12 +177,12 @@ export function save(name: string, blob: Blob): void {
   setTimeout(() => URL.revokeObjectURL(url), 10_000);
 }
 
-/** levels below 0: the control mesh, which keeps creases; otherwise the surface as a fine mesh. */
+/** levels below 0: the control mesh, which keeps creases; otherwise the surface as a fine mesh, or as fine as the tolerance asks. */
 export async function download(app: App, format: string, levels: number): Promise<void> {
   const { work } = app;
   if (!work) return;
   await app.inOrder(async () => {
-    const { bytes, losses } = await app.withEngine<{ bytes: Uint8Array<ArrayBuffer>; losses: string[] }>((engine) => engine.write(format, levels), work);
+    const { bytes, losses } = await app.withEngine<{ bytes: Uint8Array<ArrayBuffer>; losses: string[] }>((engine) => engine.write(format, levels, levels >= 0 ? app.tolerance * work.diagonal : 0), work);
     const name = renamed(work.source.name, levels >= 0 ? 'surface' : 'control', format);
     save(name, new Blob([bytes]));
     app.face.say(`Saved ${name}${losses.length > 0 ? `, without ${losses.join(', ')}` : ''}.`);

@@ -1,7 +1,7 @@
 /** The project's own models, with previews. */
 import { button, h } from './dom';
 
-const files = import.meta.glob('../../../models/*.obj', { query: '?url', import: 'default', eager: true });
+const files = import.meta.glob(['../../../models/*.obj', '../../../models/bent-tube.json'], { query: '?url', import: 'default', eager: true });
 const previews = import.meta.glob('../../gallery/*.webp', { query: '?url', import: 'default', eager: true });
 
 export interface Example {
@@ -22,6 +22,7 @@ const TITLES: readonly (readonly [string, string])[] = [
   ['cube', 'Cube'],
   ['broken-tripod', 'A broken mesh'],
   ['bracket-scan', 'A scan'],
+  ['bent-tube', 'A medial model'],
 ];
 
 function ending(all: Record<string, unknown>, end: string): string | null {
@@ -30,8 +31,9 @@ function ending(all: Record<string, unknown>, end: string): string | null {
 }
 
 export const EXAMPLES: readonly Example[] = TITLES.flatMap(([name, title]) => {
-  const url = ending(files, `/${name}.obj`);
-  return url ? [{ name: `${name}.obj`, title, url, preview: ending(previews, `/${name}.webp`) }] : [];
+  const file = [`${name}.obj`, `${name}.json`].find((one) => ending(files, `/${one}`));
+  const url = file && ending(files, `/${file}`);
+  return url ? [{ name: file, title, url, preview: ending(previews, `/${name}.webp`) }] : [];
 });
 
 /** The address of a model of the project, for a morph's other shape. */

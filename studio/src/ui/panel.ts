@@ -4,7 +4,7 @@ import type { BoundaryWord, FitRound, Method, Vec3 } from '../engine/types';
 import { PRESETS } from '../engine/types';
 import { bandsCommand, commandFor, denoiseCommand, fitCommand, morphCommand, repairCommand, textureCommand } from '../state/command';
 import type { Settings, Work } from '../state/work';
-import { isCloud, wantedNormals, wishesOf } from '../state/work';
+import { isCloud, isMedial, wantedNormals, wishesOf } from '../state/work';
 import { copyLink, creaseSharpness, denoise, download, downloadNormals, downloadPicture, equalize, fitMeshTo, fitSurface, nudge, repairMesh, toggleCorner, toggleInterpolation, toggleNormal } from './actions';
 import { button, choice, fileButton, h, section, slider, tick } from './dom';
 import { plotMethods, plotRounds } from './plot';
@@ -48,6 +48,9 @@ const BESIDE_CHOICES: readonly (readonly [App['beside'], string])[] = [
 ];
 const BANDS = ['up to 4 edges', '4 to 8', '8 to 16', 'the shape'];
 const FORMATS = ['obj', 'ply', 'off', 'stl', 'usda', 'glb'] as const;
+
+/** In % of the size. */
+const TOLERANCES = [['0', 'none'], ['1', '1 %'], ['0.3', '0.3 %'], ['0.1', '0.1 %'], ['0.03', '0.03 %'], ['0.01', '0.01 %']] as const;
 
 function isTexture(coloring: Coloring): boolean {
   return PRESETS.some((preset) => preset === coloring);
@@ -125,7 +128,7 @@ export class Panel {
       alpha.set(settings?.alpha ?? 0);
       fair.input.checked = settings?.fair ?? false;
     });
-    return section('Surface', true, h('div', { class: 'buttons' }, toggle, compare), scheme.element, boundary.element, alpha.element, fair.element, plot, this.command((work) => commandFor(work, this.budget)));
+    return section('Surface', true, h('div', { class: 'buttons' }, toggle, compare), scheme.element, boundary.element, alpha.element, fair.element, plot, this.command((work) => commandFor(work, this.budget, app.tolerance)));
   }
 
   private async compare(plot: HTMLElement): Promise<void> {
@@ -142,10 +145,12 @@ export class Panel {
     const { app } = this;
     const { stage } = app;
     const coloring = choice('Colour by', COLORINGS, (word) => {
+      const drawnOtherwise = app.tolerance > 0 && isTexture(word) !== isTexture(app.coloring);
       app.coloring = word;
       seed.element.hidden = !isTexture(word);
       this.refresh();
-      void app.inOrder(() => app.color());
+      if (drawnOtherwise) app.redraw();
+      else void app.inOrder(() => app.color());
     });
     const show = (object: { visible: boolean }, label: string): HTMLElement =>
       tick(label, true, (checked) => {
@@ -173,9 +178,17 @@ export class Panel {
       },
     });
     detail.element.title = 'Steps of refinement that are drawn; 0: as many as suit the screen';
+    const tolerance = choice('Tolerance', TOLERANCES, (word) => {
+      app.tolerance = Number(word) / 100;
+      detail.input.disabled = app.tolerance > 0;
+      app.redraw();
+    });
+    tolerance.element.title = 'Instead of steps: as few triangles as stay so near to the surface, in % of the mesh\u2019s size';
+    const spokes = show(stage.spokes.object, 'Spokes');
+    this.refreshers.push(() => void (spokes.hidden = !app.work || !isMedial(app.work)));
     const flat = tick('Without perspective', false, (checked) => void (stage.isFlat = checked));
     const views = (['front', 'right', 'top', 'home'] as const).map((view) => button(view[0]?.toUpperCase() + view.slice(1), () => stage.look(view)));
-    return section('Look', true, coloring.element, beside.element, seed.element, this.command((work) => (isTexture(app.coloring) ? textureCommand(work, app.coloring, app.seed) : null)), show(stage.control.group, 'Control mesh'), show(stage.points.object, 'Points'), flat.element, detail.element, h('div', { class: 'buttons' }, ...views), h('div', { class: 'buttons' }, measured.element));
+    return section('Look', true, coloring.element, beside.element, seed.element, this.command((work) => (isTexture(app.coloring) ? textureCommand(work, app.coloring, app.seed) : null)), show(stage.control.group, 'Control mesh'), show(stage.points.object, 'Points'), spokes, flat.element, detail.element, tolerance.element, h('div', { class: 'buttons' }, ...views), h('div', { class: 'buttons' }, measured.element));
   }
 
   private pointSection(): HTMLElement {

@@ -43,7 +43,7 @@ function plotErrors(place: HTMLElement, steps: string, places: number[], rows: (
       scales: { x: { time: false }, y: { distr: 3 } },
       axes: [
         { ...axis, label: steps, labelSize: 18, size: 28 },
-        { ...axis, size: 48, splits: (_plot, _axis, low, high) => powers(low, high), values: (_plot, values) => values.map((value) => power(value)) },
+        { ...axis, size: 48, splits: (_plot, _axis, low, high) => powers(low, high), filter: (_plot, splits) => splits, values: (_plot, values) => values.map((value) => power(value)) },
       ],
       series: [{}, ...series.map(({ label, few }, i) => ({ label, stroke: COLORS[i % COLORS.length] ?? ink, width: 2, spanGaps: true, points: { show: few } }))],
     },

@@ -6,6 +6,7 @@ import { ArrowLayer } from './arrow_layer';
 import { CloudLayer } from './cloud_layer';
 import { ControlLayer } from './control_layer';
 import { PointsLayer } from './points_layer';
+import { SpokeLayer } from './spoke_layer';
 import { SurfaceLayer } from './surface_layer';
 
 CameraControls.install({ THREE });
@@ -35,6 +36,7 @@ export class Stage {
   readonly points = new PointsLayer();
   readonly cloud = new CloudLayer();
   readonly arrows = new ArrowLayer();
+  readonly spokes = new SpokeLayer();
   /** A second surface, to the right of the first. */
   private readonly second = new SurfaceLayer();
   private readonly renderer: THREE.WebGLRenderer;
@@ -53,7 +55,7 @@ export class Stage {
     this.canvas = canvas;
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
-    this.scene.add(this.surface.mesh, this.control.group, this.points.object, this.cloud.object, this.arrows.group, this.second.mesh);
+    this.scene.add(this.surface.mesh, this.control.group, this.points.object, this.cloud.object, this.arrows.group, this.spokes.object, this.second.mesh);
     this.second.clear();
     this.controls = this.steer(this.perspective);
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement ?? canvas);
@@ -118,6 +120,7 @@ export class Stage {
     this.control.colors(palette.line, palette.crease);
     this.points.colors(palette.point, palette.picked, palette.rim);
     this.arrows.setColor(palette.picked);
+    this.spokes.setColor(palette.crease);
     this.touch();
   }
 
@@ -234,11 +237,14 @@ export class Stage {
   }
 
   reshape(change: Change): void {
-    this.surface.reshape(change);
+    if (change.triangles) this.surface.draw({ ...change, triangles: change.triangles });
+    else this.surface.reshape(change);
     this.control.move(change.control, change.moved);
     this.touch();
   }
-  drawPoints(points: Float64Array): void {
+  /** origins: Work.origins. */
+  drawPoints(points: Float64Array, origins: Float64Array = new Float64Array()): void {
+    this.spokes.draw(origins, points);
     this.points.draw(points, (points.length / 3 > MANY_POINTS ? 3 : POINT_PIXELS) * this.renderer.getPixelRatio());
     this.touch();
   }

@@ -46,7 +46,9 @@ export class SurfaceLayer {
     }
   }
 
-  draw(drawing: Drawing): void {
+  /** Numbers and colours at the vertices are those of other ones, and go. */
+  draw(drawing: Pick<Drawing, 'points' | 'normals' | 'triangles'>): void {
+    if (this.mesh.material !== this.zebra) this.lookPlain();
     this.mesh.geometry.dispose();
     const geometry = new BufferGeometry();
     geometry.setAttribute('position', new BufferAttribute(drawing.points, 3));

@@ -4,7 +4,6 @@ import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readdirSync, readFileSync, statSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { brotliCompressSync, constants } from 'node:zlib';
 import { idle, openStudio, status } from './browser.mjs';
 
 const [folder, batten] = process.argv.slice(2);
@@ -20,8 +19,8 @@ function refined(model, levels) {
 }
 /** Of what the Worker fetches, which the page's own list lacks. */
 function packedSize() {
-  const files = readdirSync(join(folder, 'assets')).filter((name) => name.endsWith('.wasm') || name.startsWith('worker'));
-  return files.reduce((sum, name) => sum + brotliCompressSync(readFileSync(join(folder, 'assets', name)), { params: { [constants.BROTLI_PARAM_QUALITY]: 5 } }).length, 0);
+  const files = readdirSync(join(folder, 'assets')).filter((name) => /\.wasm\.br$|^worker.*\.br$/.test(name));
+  return files.reduce((sum, name) => sum + statSync(join(folder, 'assets', name)).size, 0);
 }
 function native(path) {
   const report = join(scratch, 'report.json');

@@ -10,7 +10,7 @@ const count = await page.locator('.card').count();
 for (let i = 0; i < count; ++i) {
   const card = page.locator('.card').nth(i);
   const title = (await card.textContent()).trim();
-  const opened = page.waitForResponse((answer) => answer.url().includes('.obj'));
+  const opened = page.waitForResponse((answer) => /\.(obj|json)/.test(answer.url()));
   await card.click();
   await opened;
   await page.waitForFunction(() => globalThis.studio.app.work !== null);
@@ -31,7 +31,7 @@ for (let i = 0; i < count; ++i) {
     to.getContext('2d').drawImage(from, (from.width - from.height * 4 / 3) / 2, 0, (from.height * 4) / 3, from.height, 0, 0, 320, 240);
     return { name: app.work.source.name, picture: to.toDataURL('image/webp', 0.85) };
   });
-  writeFileSync(`${folder}${name.replace(/\.obj$/, '.webp')}`, Buffer.from(picture.split(',')[1], 'base64'));
+  writeFileSync(`${folder}${name.replace(/\.(obj|json)$/, '.webp')}`, Buffer.from(picture.split(',')[1], 'base64'));
   process.stdout.write(`${title}: ${name}\n`);
   await page.evaluate(() => globalThis.studio.app.store.restore({ work: null, past: [], future: [] }));
   await page.waitForTimeout(300);

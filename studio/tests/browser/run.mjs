@@ -279,6 +279,53 @@ const tasks = {
     await idle(page);
   },
 
+  async 'a tolerance instead of detail'({ page }) {
+    await openModel(page, 'creature');
+    await page.getByLabel('Colour by', { exact: true }).selectOption('mean');
+    await page.getByLabel('Tolerance', { exact: true }).selectOption('0.1');
+    await idle(page);
+    assert.match(await status(page), /Drawn in [\d,\u2009 ]+ triangles, nowhere farther than/);
+    assert.ok(await page.locator('#colorbar').isVisible());
+    const triangles = () => page.evaluate(() => globalThis.studio.app.drawing.triangles.length / 3);
+    const coarse = await triangles();
+    await shoot(page, 'studio-tolerance');
+    await page.getByLabel('The surface as a fine mesh, not its control mesh').check();
+    const ours = readObj(readFileSync(await download(page, 'Download OBJ'), 'utf8'));
+    tool('subdivide', `${models}creature.obj`, '--chord', '0.1%', '-o', join(scratch, 'chord.obj'));
+    const theirs = readObj(readFileSync(join(scratch, 'chord.obj'), 'utf8'));
+    assert.equal(ours.points.length, theirs.points.length);
+    assert.ok(difference(ours, theirs) < 1e-12 * diagonal(theirs));
+    await page.getByLabel('The surface as a fine mesh, not its control mesh').uncheck();
+    await page.getByLabel('Tolerance', { exact: true }).selectOption('0.01');
+    await idle(page);
+    assert.ok((await triangles()) > 3 * coarse);
+    await page.getByLabel('Colour by', { exact: true }).selectOption('marble'); // by steps
+    await idle(page);
+    await page.getByLabel('Colour by', { exact: true }).selectOption('plain');
+    await page.getByLabel('Tolerance', { exact: true }).selectOption('0');
+    await idle(page);
+    assert.doesNotMatch(await status(page), /Drawn in/);
+  },
+
+  async 'a medial model becomes the surface through its spokes\u2019 ends'({ page }) {
+    for (const model of ['bean.srep.json', 'fork.json', 'bent-tube.json']) {
+      await open(page, `${models}${model}`);
+      assert.match(await status(page), /ends of \d+ spokes.*Interpolated: max error.*lean by at most/);
+      const own = join(scratch, 'medial.obj');
+      tool('medial', `${models}${model}`, '-o', own);
+      const ours = readObj(readFileSync(await download(page, 'Download OBJ'), 'utf8'));
+      const theirs = readObj(readFileSync(own, 'utf8'));
+      assert.ok(difference(ours, theirs) < 1e-12 * diagonal(theirs), model);
+    }
+    await page.getByLabel('Control mesh', { exact: true }).uncheck();
+    await shoot(page, 'studio-medial');
+    await page.getByLabel('Control mesh', { exact: true }).check();
+    await page.getByLabel('Spokes', { exact: true }).uncheck();
+    await page.getByLabel('Spokes', { exact: true }).check();
+    await openModel(page, 'cube');
+    assert.ok(!(await page.getByLabel('Spokes', { exact: true }).isVisible()));
+  },
+
   async 'schemes, boundaries, fairness and iterations'({ page }) {
     await openModel(page, 'flag');
     await press(page, 'Interpolate');

@@ -9,7 +9,7 @@ import { EngineError } from '../../src/engine/types';
 import { putRows } from '../../src/view/rows';
 
 const root = new URL('../../../', import.meta.url);
-const PLAIN: SurfaceWishes = { scheme: 0, boundary: 2, alpha: 0, interpolate: true, fair: false, smoothing: 0, levels: 2, normals: new Float64Array() };
+const PLAIN: SurfaceWishes = { scheme: 0, boundary: 2, alpha: 0, interpolate: true, fair: false, smoothing: 0, levels: 2, chord: 0, normals: new Float64Array() };
 let engine: Engine;
 /** The surfaces on the way of the last fits. */
 const frames: Drawing[] = [];
@@ -82,7 +82,7 @@ describe('wanted normals', () => {
     expect(distance(drawing.normals, vertex, wanted, 0)).toBeLessThan(1e-5);
     expect(distance(drawing.points, vertex, before.points, vertex)).toBeLessThan(1e-5);
     // and in the file
-    engine.open('normals.obj', engine.write('obj', -1).bytes);
+    engine.open('normals.obj', engine.write('obj', -1, 0).bytes);
     expect(distance(engine.show({ ...PLAIN, interpolate: false }).drawing.normals, vertex, wanted, 0)).toBeLessThan(1e-5);
   });
 });
@@ -113,11 +113,62 @@ describe('fits', () => {
   });
 });
 
+describe('a tolerance', () => {
+  it('bounds the distance of what is drawn', () => {
+    engine.open('torus.obj', torus(12, 8));
+    const coarse = engine.show({ ...PLAIN, chord: 0.05 });
+    const fine = engine.show({ ...PLAIN, chord: 0.002 });
+    expect(fine.report.triangles).toBeGreaterThan(2 * (coarse.report.triangles ?? Infinity));
+    const { points, triangles } = fine.drawing;
+    expect(triangles.length / 3).toBe(fine.report.triangles);
+    let farthest = 0;
+    for (let t = 0; t < triangles.length; t += 3) {
+      const middle = [0, 1, 2].map((k) => ((points[3 * (triangles[t] ?? 0) + k] ?? NaN) + (points[3 * (triangles[t + 1] ?? 0) + k] ?? NaN)) / 2) as [number, number, number];
+      farthest = Math.max(farthest, engine.probe(middle).distance);
+    }
+    expect(farthest).toBeGreaterThan(0);
+    expect(farthest).toBeLessThan(0.002);
+  });
+  it('follows a point, and carries measures', () => {
+    engine.open('torus.obj', torus(12, 8));
+    const before = engine.show({ ...PLAIN, chord: 0.01 }).drawing;
+    const moved = engine.move(0, [4.5, 0, 0], 0);
+    expect(moved.triangles?.length).not.toBe(before.triangles.length);
+    expect(distance(moved.points, 0, [4.5, 0, 0], 0)).toBeLessThan(1e-5);
+    for (const measure of ['mean', 'gaussian', 'error', 'valence', 'sharpness', 'moved'] as const) {
+      const { numbers } = engine.field(measure);
+      expect(numbers.length).toBe(moved.points.length / 3);
+      expect([...numbers].every(Number.isFinite)).toBe(true);
+    }
+    expect([...engine.field('valence').numbers].every((valence) => Math.abs(valence - 4) < 1e-9)).toBe(true);
+  });
+  it('is left out by a Butterfly', () => {
+    engine.open('icosahedron.obj', model('icosahedron'));
+    expect(engine.show({ ...PLAIN, scheme: 3, chord: 0.01 }).report.triangles).toBeUndefined();
+  });
+});
+
+describe('medial models', () => {
+  it('become the mesh of their spokes\u2019 ends, and tell where these start', () => {
+    const { points, origins, notes } = engine.open('bean.srep.json', readFileSync(new URL('models/bean.srep.json', root)));
+    expect(origins.length).toBe(points.length);
+    expect(notes[0]).toContain('spokes');
+    const { report, drawing } = engine.show(PLAIN);
+    expect(report.maxError).toBeLessThan(1e-11);
+    for (let i = 0; i < points.length / 3; ++i) expect(distance(drawing.points, i, points, i)).toBeLessThan(1e-4);
+    expect(engine.open('cube.obj', model('cube')).origins.length).toBe(0);
+  });
+  it('are refused with the place of the fault', () => {
+    expect(() => engine.open('broken.json', text('{"figures": [{"atoms": [{}]}]}'))).toThrow(EngineError);
+    expect(() => engine.open('broken.json', text('{"figures": [{"atoms": [{}]}]}'))).toThrow(/broken\.json/);
+  });
+});
+
 describe('GLB', () => {
   it('is read again', () => {
     engine.open('tripod.obj', model('tripod'));
     engine.show(PLAIN);
-    const { bytes, losses } = engine.write('glb', 2);
+    const { bytes, losses } = engine.write('glb', 2, 0);
     expect(losses).toEqual(['polygons (cut into triangles)']);
     const { points } = engine.open('tripod.glb', bytes);
     expect(points.length).toBeGreaterThan(1000);

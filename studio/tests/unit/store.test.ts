@@ -89,11 +89,19 @@ describe('creases', () => {
 describe('words', () => {
   it('name the command with what differs from its defaults only', () => {
     const work = { ...grid(), settings: { ...PLAIN, interpolate: true, scheme: 'loop', fair: true } as const };
-    expect(commandFor(work, 400)).toBe('batten interpolate grid.obj -o control.obj --scheme loop --fair');
+    expect(commandFor(work, 400, 0)).toBe('batten interpolate grid.obj -o control.obj --scheme loop --fair');
+  });
+  it('have a tolerance in per cent', () => {
+    expect(commandFor({ ...grid(), settings: PLAIN }, 400, 0.0003)).toBe('batten subdivide grid.obj -o surface.obj --chord 0.03%');
+  });
+  it('are the medial verb for medial models, where it does the same', () => {
+    const work = { ...grid(), origins: new Float64Array(3), settings: { ...PLAIN, interpolate: true } };
+    expect(commandFor(work, 400, 0)).toBe('batten medial grid.obj -o control.obj');
+    expect(commandFor({ ...work, settings: { ...work.settings, fair: true } }, 400, 0)).toBeNull();
   });
   it('quote file names for the shell', () => {
     const work = { ...grid(), source: { name: "it's mine.obj", bytes: new Uint8Array() } };
-    expect(commandFor(work, 400)).toContain(`'it'\\''s mine.obj'`);
+    expect(commandFor(work, 400, 0)).toContain(`'it'\\''s mine.obj'`);
   });
   it('show small numbers as powers of ten', () => {
     expect(short(3.14e-10)).toBe('3.1e-10');
