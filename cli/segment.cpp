@@ -83,6 +83,16 @@ bool holds_fine_surface(const std::string& format) {
   return format == "glb" || format == "vtk" || format == "fsb" || format == "gii";
 }
 
+std::string space_comment(WorldSpace space) { return space == WorldSpace::Ras ? "SPACE=RAS" : "SPACE=LPS"; }
+
+/// Frames in the space that was asked for.
+FrameWatcher watch_in_space(const FrameWatcher& watch, WorldSpace space) {
+  if (!watch) return {};
+  return [watch, space](const SurfaceFrame& frame) {
+    watch({frame.topology, frame.scheme, in_space(Points(frame.control), space)});
+  };
+}
+
 /// The control mesh, or its surface, in the space that was asked for, which the file says.
 std::string write_in_space(const SegmentArguments& arguments, const Segmentation& result, Job& job) {
   const CommonArguments& common = arguments.common;
@@ -93,12 +103,9 @@ std::string write_in_space(const SegmentArguments& arguments, const Segmentation
   const bool fine = arguments.levels >= 0 || holds_fine_surface(format);
   const int levels = arguments.levels >= 0 ? arguments.levels : std::min(3, picture_levels(result.topology));
   Mesh mesh = fine ? surface_mesh(result.topology, result.scheme, result.mesh, levels) : result.mesh;
-  mesh.points = in_space(std::move(mesh.points), arguments.space);
-  for (Attribute& attribute : mesh.attributes) {
-    if (attribute.name == "normal" && arguments.space == WorldSpace::Lps) attribute.values.leftCols(2) *= -1.0;
-  }
+  mesh = in_space(std::move(mesh), arguments.space);
   WriteOptions options{common.output_format, !common.ascii, UpAxis::Z};
-  options.comment = arguments.space == WorldSpace::Ras ? "SPACE=RAS" : "SPACE=LPS";
+  options.comment = space_comment(arguments.space);
   write_mesh(common.output, mesh, options);
   job.lost = find_losses(common.output, mesh, options);
   say_losses(common.output, job.lost, common.quiet);
@@ -187,9 +194,7 @@ Table table_of(const SegmentRequest& request, const SegmentResult& found, const 
 
 SegmentRequest request_of(const SegmentArguments& arguments, Volume labels, Job& job) {
   const auto read_in_space = [&](const std::string& path) {
-    Mesh mesh = read_file(path, "", arguments.common.quiet, &job.notes);
-    mesh.points = in_space(std::move(mesh.points), arguments.space);
-    return mesh;
+    return in_space(read_file(path, "", arguments.common.quiet, &job.notes), arguments.space);
   };
   SegmentRequest request;
   request.surface.scheme.kind = arguments.common.scheme.value_or(SchemeKind::CatmullClark);
@@ -210,6 +215,26 @@ SegmentRequest request_of(const SegmentArguments& arguments, Volume labels, Job&
   return request;
 }
 
+/// The picture and the frames; what the table says of these.
+std::string draw_surface(const SegmentArguments& arguments, const SegmentRequest& request, const Segmentation& result,
+                         const Evolution& evolution, Job& job) {
+  const Points markers = in_space(Points(request.points), arguments.space);
+  if (arguments.evolution.moments) {
+    evolution.draw_moments(arguments.picture, markers, 0.0, job);
+    job.stages.finish("picture");
+  } else if (!arguments.picture.path.empty()) {
+    Subject subject;
+    subject.control = &result.mesh;
+    subject.topology = result.topology;
+    subject.scheme = result.scheme;
+    subject.draw_control = true;
+    subject.markers = request.points;
+    draw(subject, arguments.picture, job);
+    job.stages.finish("picture");
+  }
+  return evolution.write(arguments.picture, markers, 0.0, job);
+}
+
 }  // namespace
 
 int run_segment(const SegmentArguments& arguments) {
@@ -222,25 +247,19 @@ int run_segment(const SegmentArguments& arguments) {
         if (!arguments.mask.empty()) labels = read_input_volume(arguments.mask);
       },
       UpAxis::Z);
-  const SegmentRequest request = request_of(arguments, std::move(labels), job);
+  SegmentRequest request = request_of(arguments, std::move(labels), job);
+  Evolution evolution(arguments.evolution, space_comment(arguments.space));
+  request.surface.watch = watch_in_space(evolution.watcher(), arguments.space);
   ProgressBar bar("segmenting", arguments.common.quiet);
   const SegmentResult found = segment_volume(image, request, bar.callback());
   job.stages.finish("segment");
   const std::string written = write_in_space(arguments, found.surface, job);
   write_inside(arguments, found.measures.fine, image.grid);
   draw_overlay(arguments, found.measures.fine, image);
-  if (!arguments.picture.path.empty()) {
-    Subject subject;
-    subject.control = &found.surface.mesh;
-    subject.topology = found.surface.topology;
-    subject.scheme = found.surface.scheme;
-    subject.draw_control = true;
-    subject.markers = request.points;
-    draw(subject, arguments.picture, job);
-    job.stages.finish("picture");
-  }
+  const std::string frames = draw_surface(arguments, request, found.surface, evolution, job);
   Table table = table_of(request, found, image.grid);
   if (!written.empty()) table.add("written", written);
+  if (!frames.empty()) table.add("frames", frames);
   job.print(table);
   job.report(report_json(arguments, request, found));
   return 0;

@@ -6,12 +6,14 @@
 
 #include "batten/volume/volume.h"
 #include "cli/arguments.h"
+#include "cli/evolution.h"
 
 namespace batten::cli {
 
 struct SegmentArguments {
   CommonArguments common;  ///< input: the volume
   PictureArguments picture;
+  EvolutionArguments evolution;
   std::string mask;             ///< a volume of labels; empty: the input
   std::vector<double> labels;   ///< empty: all but 0
   std::string points;           ///< on the surface; empty: none

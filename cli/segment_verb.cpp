@@ -75,10 +75,12 @@ void add_segment(CLI::App& app, SegmentArguments& arguments, int& status) {
   add_output_file(verb, "--inside", arguments.inside, "write 1 where a voxel's centre is inside, on the image's grid",
                   {".nii", ".gz", ".nrrd", ".mha"});
   verb.add_flag("--parts", arguments.parts, "with --inside: write the share of each voxel that is inside");
+  add_evolution(verb, arguments.evolution);
   add_picture(verb, arguments.picture);
   exclude_starts(verb);
   set_run(verb, arguments.common, status, [&] {
-    require_output(verb, {"--picture", "--report", "--overlay", "--inside"});
+    require_output(verb, {"--picture", "--report", "--overlay", "--inside", "--frames"});
+    require_with(verb, {"--moments"}, {"--picture"});
     require_with(verb, {"--parts"}, {"--inside"});
     require_with(verb, {"--edges"}, {"--mask"});
     require_with(verb, {"--numbers"}, {"--seed"});

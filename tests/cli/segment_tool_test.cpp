@@ -88,6 +88,34 @@ TEST_F(SegmentTool, StartsFromAMesh) {
   EXPECT_EQ(run("segment ball.nrrd --numbers 1,2 -o c.obj").status, 2);
 }
 
+TEST_F(SegmentTool, WritesItsRoundsAndAFilm) {
+  const Outcome result =
+      run("segment ball.nrrd --vertices 100 -o a.obj --frames rounds --film film.glb --report r.json --space lps");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const auto rounds = nlohmann::json::parse(text_of(path("r.json"))).at("rounds").get<int>();
+  ASSERT_GT(rounds, 0);
+  ASSERT_LT(rounds, 10);
+  EXPECT_NE(result.out.find(std::to_string(rounds + 1) + " frames in rounds"), std::string::npos) << result.out;
+  const std::string last = path("rounds/round-00" + std::to_string(rounds) + ".obj");
+  EXPECT_EQ(read_mesh(last).points, read_mesh(path("a.obj")).points);
+  EXPECT_EQ(text_of(last).substr(0, 12), "# SPACE=LPS\n");
+  EXPECT_NE(read_mesh(path("rounds/round-000.obj")).points, read_mesh(last).points);
+  EXPECT_GT(fs::file_size(path("film.glb")), 10000U);
+  EXPECT_EQ(run("segment ball.nrrd --moments 2 -o b.obj").status, 2) << "moments of which picture?";
+}
+
+TEST_F(SegmentTool, ShowsTheWayFromASeedThroughItsEdges) {
+  ASSERT_EQ(run("segment ball.nrrd --seed=-10,-20,30 --vertices 100 -o a.obj --frames rounds").status, 0);
+  std::vector<Points> shown;
+  for (const auto& entry : fs::directory_iterator(path("rounds"))) shown.push_back(read_mesh(entry.path()).points);
+  ASSERT_GT(shown.size(), 20U) << "of the region's surface, and of 24 rounds";
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) EXPECT_NE(shown[i], shown[j]) << "no surface is shown twice";
+  }
+  ASSERT_EQ(run("segment ball.nrrd --start a.obj -o b.obj --frames again").status, 0);
+  EXPECT_EQ(read_mesh(path("again/round-000.obj")).points, read_mesh(path("a.obj")).points);
+}
+
 TEST_F(SegmentTool, WritesTheFineSurfaceForProgramsOfMedicine) {
   for (const char* name : {"a.gii", "a.fsb", "a.vtk"}) {
     const Outcome result = run(std::string("segment ball.nrrd --vertices 100 -o ") + name);

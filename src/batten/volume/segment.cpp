@@ -6,7 +6,6 @@
 
 #include "batten/error.h"
 #include "batten/fit/first_mesh.h"
-#include "batten/fit/surface_film.h"
 #include "batten/fit/surface_fitter.h"
 #include "batten/volume/guarded_steps.h"
 #include "batten/volume/label_mask.h"
@@ -63,7 +62,7 @@ Segmentation segment_mask(const Volume& mask, const SegmentOptions& options, con
   first.bridge = 0.0;
   const FirstMesh start = first_mesh(border, first, progress_within(progress, 0.0, 0.5));
   SurfaceFitter fitter(Topology(start.mesh), options.scheme, start.mesh.points, border);
-  GuardedSteps steps(fitter, options.within);
+  GuardedSteps steps(fitter, options.within, options.watch);
   fitter.attach();
   Segmentation result{{}, fitter.topology(), options.scheme};
   result.genus = start.genus();
