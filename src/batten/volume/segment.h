@@ -32,6 +32,7 @@ struct Segmentation {
   Index dropped_parts = 0;  ///< specks too small to follow
   int rounds = 0;           ///< steps that moved the surface
   int cut_steps = 0;        ///< steps taken back, because the surface would have met itself
+  double fairness = 0.0;    ///< of the last step (FitStep)
   double border_rms = 0.0;  ///< of the distances from the middles of the voxels' outer faces, mm
 };
 

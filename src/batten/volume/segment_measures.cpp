@@ -26,9 +26,8 @@ Mesh surface_of_faces(const Topology& topology, const Scheme& scheme, const Mesh
 
 SurfaceMeasures measure_surface(const Topology& topology, const Scheme& scheme, const Mesh& control,
                                 const Progress& progress) {
-  constexpr std::int64_t kFaces = 60000;
   SurfaceMeasures measures;
-  measures.fine = triangulated(surface_of_faces(topology, scheme, control, kFaces));
+  measures.fine = triangulated(surface_of_faces(topology, scheme, control, kMeasuredFaces));
   report_progress(progress, 0.3);
   const Topology fine(measures.fine, progress_within(progress, 0.3, 0.5));
   measures.area = surface_area(fine, measures.fine.points);

@@ -10,6 +10,9 @@
 
 namespace batten {
 
+/// What measure_surface() refines to.
+inline constexpr std::int64_t kMeasuredFaces = 60000;
+
 /// A closed surface as a fine mesh, and what it holds.
 struct SurfaceMeasures {
   Mesh fine;                            ///< of the limit surface
