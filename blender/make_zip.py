@@ -10,5 +10,7 @@ with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as archive:
     for file in sorted(addon.glob("*.py")):
         archive.write(file, f"batten_addon/{file.name}")
     for file in sorted(package.iterdir()):
+        if file.name.startswith("_volumes"):  # needs ITK, and no operator reads volumes
+            continue
         if file.suffix in {".py", ".pyi", ".so", ".typed"} or file.name == "py.typed":
             archive.write(file, f"batten_addon/vendor/batten/{file.name}")

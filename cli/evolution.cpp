@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "batten/error.h"
 #include "batten/io/io.h"
@@ -42,7 +43,8 @@ void add_evolution(CLI::App& verb, EvolutionArguments& arguments) {
   add_output_file(verb, "--film", arguments.film, "write the surfaces of all rounds as an animation", {".glb"});
 }
 
-Evolution::Evolution(const EvolutionArguments& arguments) : arguments_(arguments) {
+Evolution::Evolution(const EvolutionArguments& arguments, std::string comment)
+    : arguments_(arguments), comment_(std::move(comment)) {
   if (!arguments_.folder.empty()) make_folder(arguments_.folder);
 }
 
@@ -71,7 +73,9 @@ std::string Evolution::write(const PictureArguments& picture, const Points& mark
 void Evolution::write_meshes(Job& job) const {
   for (Index i = 0; i < film_.size(); ++i) {
     const std::string path = numbered(in_folder(arguments_.folder, "round.obj"), static_cast<std::size_t>(i));
-    write_mesh(path, frame_mesh(film_.frame(i)), {"", true, job.up});
+    WriteOptions options{"", true, job.up};
+    options.comment = comment_;
+    write_mesh(path, frame_mesh(film_.frame(i)), options);
   }
 }
 

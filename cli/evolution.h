@@ -25,8 +25,9 @@ void add_evolution(CLI::App& verb, EvolutionArguments& arguments);
 /// Keeps the rounds while they are made and writes them.
 class Evolution {
  public:
-  /// Makes the folder, so that a name that cannot be one is known before any work. Throws Error(FileNotWritable).
-  explicit Evolution(const EvolutionArguments& arguments);
+  /// Makes the folder, so that a name that cannot be one is known before any work. comment: what the meshes' files say,
+  /// where their formats have comments. Throws Error(FileNotWritable).
+  explicit Evolution(const EvolutionArguments& arguments, std::string comment = {});
 
   /// For FitOptions::watch and its like; empty where nothing is to be written. The evolution must outlive it.
   FrameWatcher watcher();
@@ -43,6 +44,7 @@ class Evolution {
   void write_film(Job& job) const;
 
   const EvolutionArguments& arguments_;
+  std::string comment_;
   SurfaceFilm film_;
 };
 

@@ -4,16 +4,20 @@
 #include <string>
 #include <vector>
 
-#include "batten/volume/volume.h"
+#include "batten/volume/segment_volume.h"
 #include "cli/arguments.h"
+#include "cli/evolution.h"
+#include "cli/job.h"
 
 namespace batten::cli {
 
 struct SegmentArguments {
   CommonArguments common;  ///< input: the volume
   PictureArguments picture;
+  EvolutionArguments evolution;
   std::string mask;             ///< a volume of labels; empty: the input
   std::vector<double> labels;   ///< empty: all but 0
+  bool together = false;        ///< each label a surface of its own
   std::string points;           ///< on the surface; empty: none
   std::vector<double> seed;     ///< x, y, z in the part; empty: none
   std::vector<double> numbers;  ///< least and greatest number of the part around the seed; empty: found
@@ -30,5 +34,8 @@ struct SegmentArguments {
 };
 
 int run_segment(const SegmentArguments& arguments);
+/// Of several labels, each a surface of its own.
+int run_segment_together(const SegmentArguments& arguments, const Volume& image, const SegmentRequest& request,
+                         Job& job);
 
 }  // namespace batten::cli

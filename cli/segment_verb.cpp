@@ -13,6 +13,9 @@ void add_starts(CLI::App& verb, SegmentArguments& arguments) {
   verb.add_option("--label", arguments.labels, "the label, or several as one: 71,72; all numbers but 0, if not given")
       ->delimiter(',')
       ->option_text("N,...");
+  verb.add_flag("--together", arguments.together,
+                "a surface for each --label, which do not meet each other, in files of their own: -o organ.obj writes "
+                "organ-71.obj and organ-72.obj. --inside then has the labels' numbers");
   add_input_file(verb, "--points", arguments.points,
                  "points on the border of the part, in the world of --space: the surface starts from them and is drawn "
                  "to them and to the image's edges; .xyz or a mesh. Labels are then only compared with");
@@ -39,6 +42,8 @@ void exclude_starts(CLI::App& verb) {
       if (start != other) verb.get_option(start)->excludes(verb.get_option(other));
     }
   }
+  for (const char* option : {"--points", "--seed", "--start", "--edges", "--parts", "--frames", "--film", "--moments"})
+    verb.get_option("--together")->excludes(verb.get_option(option));
   for (const char* option : {"--vertices", "--genus", "--smoothing", "--scheme"})
     verb.get_option("--start")->excludes(verb.get_option(option));
 }
@@ -75,11 +80,14 @@ void add_segment(CLI::App& app, SegmentArguments& arguments, int& status) {
   add_output_file(verb, "--inside", arguments.inside, "write 1 where a voxel's centre is inside, on the image's grid",
                   {".nii", ".gz", ".nrrd", ".mha"});
   verb.add_flag("--parts", arguments.parts, "with --inside: write the share of each voxel that is inside");
+  add_evolution(verb, arguments.evolution);
   add_picture(verb, arguments.picture);
   exclude_starts(verb);
   set_run(verb, arguments.common, status, [&] {
-    require_output(verb, {"--picture", "--report", "--overlay", "--inside"});
+    require_output(verb, {"--picture", "--report", "--overlay", "--inside", "--frames"});
+    require_with(verb, {"--moments"}, {"--picture"});
     require_with(verb, {"--parts"}, {"--inside"});
+    require_with(verb, {"--together"}, {"--label"});
     require_with(verb, {"--edges"}, {"--mask"});
     require_with(verb, {"--numbers"}, {"--seed"});
     return run_segment(arguments);

@@ -47,6 +47,23 @@ if(BATTEN_WITH_RENDER)
                             -lbatten_render -lembree3)
 endif()
 
+if(BATTEN_WITH_VOLUMES)
+  set(itk_flags "")
+  foreach(library IN LISTS ITK_LIBRARIES)  # targets, whose files carry ITK's version
+    if(TARGET ${library})
+      get_target_property(file ${library} LOCATION)
+      if(file MATCHES "/lib([^/]*)[.](so|a)")
+        list(APPEND itk_flags -l${CMAKE_MATCH_1})
+      endif()
+    endif()
+  endforeach()
+  list(REMOVE_DUPLICATES itk_flags)
+  list(JOIN itk_flags " " itk_flags)
+  batten_install_library(batten_volumes batten-volumes-targets volumes)
+  batten_install_pkg_config(batten-volumes "Files of volumes for subdivision surfaces" "batten = ${PROJECT_VERSION}" zlib
+                            -lbatten_volumes "${itk_flags}")
+endif()
+
 configure_package_config_file(cmake/batten-config.cmake.in batten-config.cmake INSTALL_DESTINATION ${BATTEN_CONFIG_DIR})
 write_basic_package_version_file(batten-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/batten-config.cmake ${PROJECT_BINARY_DIR}/batten-config-version.cmake

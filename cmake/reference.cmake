@@ -21,7 +21,7 @@ set(DOXYGEN_GENERATE_TREEVIEW YES)
 set(DOXYGEN_HAVE_DOT NO)
 set(DOXYGEN_QUIET YES)
 set(DOXYGEN_WARN_LOGFILE ${folder}/warnings.txt)
-doxygen_add_docs(reference_pages docs/architecture.md ${BATTEN_HEADERS} ${BATTEN_RENDER_HEADERS}
+doxygen_add_docs(reference_pages docs/architecture.md ${BATTEN_HEADERS} ${BATTEN_RENDER_HEADERS} ${BATTEN_VOLUMES_HEADERS}
                  WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
 add_custom_target(reference COMMAND ${CMAKE_COMMAND} -DWARNINGS=${folder}/warnings.txt
                                     -P ${PROJECT_SOURCE_DIR}/cmake/reference_warnings.cmake)

@@ -20,10 +20,11 @@ class CMakeBuild(build_ext):
             python = f"-DPython_EXECUTABLE={sys.executable}"
             subprocess.run(["cmake", "-S", source, "-B", build, "-G", "Ninja", python, *on, *off], check=True)
         subprocess.run(["cmake", "--build", build, "--target", "batten_native"], check=True)
-        built = next((build / "python" / "batten").glob("_native*.so"))
         target = pathlib.Path(self.get_ext_fullpath(ext.name))
         target.parent.mkdir(parents=True, exist_ok=True)
-        self.copy_file(str(built), str(target))
+        # Beside _native, where the build folder has it, what reads files of volumes.
+        for built in (build / "python" / "batten").glob("_*.so"):
+            self.copy_file(str(built), str(target.parent / built.name))
 
 
 setup(ext_modules=[Extension("batten._native", sources=[])], cmdclass={"build_ext": CMakeBuild})

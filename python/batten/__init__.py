@@ -27,6 +27,7 @@ from .reports import (
     MotionMeasure,
     Problem,
     RepairChange,
+    SegmentReport,
     SharpenReport,
     UpdateReport,
 )
@@ -45,6 +46,7 @@ from .surface import (
     surface_weights,
     tessellate,
 )
+from .volumes import Segmented, Volume, read_volume, segment, write_volume
 
 _native.set_error_type(Error)
 
@@ -77,6 +79,8 @@ __all__ = [
     "Problem",
     "RepairChange",
     "Repaired",
+    "SegmentReport",
+    "Segmented",
     "SharpenReport",
     "Sharpened",
     "SparseRows",
@@ -84,6 +88,7 @@ __all__ = [
     "Tessellator",
     "UpdateReport",
     "Updates",
+    "Volume",
     "bands",
     "check",
     "denoise",
@@ -95,8 +100,10 @@ __all__ = [
     "medial",
     "morph",
     "read",
+    "read_volume",
     "render",
     "repair",
+    "segment",
     "sharpen",
     "subdivide",
     "surface_weights",
@@ -105,4 +112,5 @@ __all__ = [
     "triangulate",
     "write",
     "write_png",
+    "write_volume",
 ]

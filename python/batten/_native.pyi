@@ -275,6 +275,18 @@ def fit(
     progress: _Progress,
     /,
 ) -> tuple[MeshData, _Doubles, dict[str, Any]]: ...
+def segment(
+    values: npt.NDArray[Any],
+    affine: _Doubles,
+    mask: Optional[tuple[npt.NDArray[Any], _Doubles]],
+    options: dict[str, Any],
+    space: str,
+    progress: _Progress,
+    /,
+) -> tuple[MeshData, MeshData, dict[str, Any]]: ...
+def inside(
+    fine: MeshData, space: str, size: tuple[int, int, int], affine: _Doubles, parts: bool, /
+) -> npt.NDArray[np.float32]: ...
 def render(
     surface: MeshData,
     lines: Optional[MeshData],

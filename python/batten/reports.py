@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 from dataclasses import dataclass, fields
-from typing import Any
+from typing import Any, Optional
 
 
 def _text(value: Any) -> str:
@@ -161,6 +161,54 @@ class FitReport(Report):
     outliers: int
     rounds: int
     seconds: float
+
+
+@dataclass(frozen=True, repr=False)
+class SegmentReport(Report):
+    """What a surface in a volume holds, and how well it sits. Lengths are in millimetres; None where nothing was given.
+
+    Attributes:
+        vertices: of the control mesh, as ``faces``.
+        genus: of all components together.
+        dropped_parts: specks too small to follow.
+        rounds: steps that moved the surface.
+        cut_steps: steps taken back, because the surface would have met itself.
+        self_intersections: pairs of triangles of the fine mesh that meet.
+        edge_strength: the derivative of the smoothed image along the normal under the surface, its mean, per mm.
+        best_edge_strength: the same, each place at its best within two voxels.
+        mask_volume: of the label that was given or compared with.
+        dice: of the voxels whose centres are inside.
+        to_surface: distances from the middles of the mask's outer faces to the surface.
+        to_border: distances from the surface to them.
+        region_volume: of what was found around a seed.
+        region_open: the share of its border that has no edge; from 0.06 on it may leak.
+    """
+
+    vertices: int
+    faces: int
+    scheme: str
+    genus: int
+    components: int
+    dropped_parts: int
+    rounds: int
+    cut_steps: int
+    volume: float
+    area: float
+    self_intersections: int
+    edge_strength: float
+    best_edge_strength: float
+    mask_volume: Optional[float]
+    dice: Optional[float]
+    to_surface: Optional[DistanceSummary]
+    to_border: Optional[DistanceSummary]
+    region_volume: Optional[float]
+    region_open: Optional[float]
+    seconds: float
+
+    @property
+    def edge_share(self) -> float:
+        """The edges under the surface, as a share of the best within two voxels."""
+        return self.edge_strength / self.best_edge_strength if self.best_edge_strength > 0 else 0.0
 
 
 @dataclass(frozen=True, repr=False)

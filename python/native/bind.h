@@ -11,6 +11,7 @@ void bind_series(pybind11::module_& module);
 void bind_fit(pybind11::module_& module);
 void bind_elastic(pybind11::module_& module);
 void bind_medial(pybind11::module_& module);
+void bind_segment(pybind11::module_& module);
 #ifdef BATTEN_WITH_RENDER
 void bind_render(pybind11::module_& module);
 #endif

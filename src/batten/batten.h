@@ -103,14 +103,17 @@
 #include "batten/tessellate/tessellator.h"
 #include "batten/volume/distance_transform.h"
 #include "batten/volume/edge_search.h"
+#include "batten/volume/image_forces.h"
 #include "batten/volume/inside_volume.h"
 #include "batten/volume/label_mask.h"
 #include "batten/volume/points_mask.h"
 #include "batten/volume/recursive_filter.h"
 #include "batten/volume/segment.h"
 #include "batten/volume/segment_measures.h"
+#include "batten/volume/segment_together.h"
 #include "batten/volume/segment_volume.h"
 #include "batten/volume/slice.h"
+#include "batten/volume/spline_field.h"
 #include "batten/volume/volume.h"
 
 /// Subdivision surfaces through data.

@@ -3,6 +3,9 @@
 
 #include "batten/io/io.h"
 #include "batten/mesh/topology.h"
+#include "batten/mesh/triangulate.h"
+#include "batten/refine/refinement.h"
+#include "batten/volume/segment_together.h"
 #include "cli/tool.h"
 
 namespace batten::cli_tests {
@@ -86,6 +89,85 @@ TEST_F(SegmentTool, StartsFromAMesh) {
   EXPECT_EQ(run("segment ball.nrrd --start a.obj --vertices 50 -o c.obj").status, 2);
   EXPECT_EQ(run("segment ball.nrrd --seed=0,0,0 --start a.obj -o c.obj").status, 2);
   EXPECT_EQ(run("segment ball.nrrd --numbers 1,2 -o c.obj").status, 2);
+}
+
+TEST_F(SegmentTool, WritesItsRoundsAndAFilm) {
+  const Outcome result =
+      run("segment ball.nrrd --vertices 100 -o a.obj --frames rounds --film film.glb --report r.json --space lps");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const auto rounds = nlohmann::json::parse(text_of(path("r.json"))).at("rounds").get<int>();
+  ASSERT_GT(rounds, 0);
+  ASSERT_LT(rounds, 10);
+  EXPECT_NE(result.out.find(std::to_string(rounds + 1) + " frames in rounds"), std::string::npos) << result.out;
+  const std::string last = path("rounds/round-00" + std::to_string(rounds) + ".obj");
+  EXPECT_EQ(read_mesh(last).points, read_mesh(path("a.obj")).points);
+  EXPECT_EQ(text_of(last).substr(0, 12), "# SPACE=LPS\n");
+  EXPECT_NE(read_mesh(path("rounds/round-000.obj")).points, read_mesh(last).points);
+  EXPECT_GT(fs::file_size(path("film.glb")), 10000U);
+  EXPECT_EQ(run("segment ball.nrrd --moments 2 -o b.obj").status, 2) << "moments of which picture?";
+}
+
+TEST_F(SegmentTool, ShowsTheWayFromASeedThroughItsEdges) {
+  ASSERT_EQ(run("segment ball.nrrd --seed=-10,-20,30 --vertices 100 -o a.obj --frames rounds").status, 0);
+  std::vector<Points> shown;
+  for (const auto& entry : fs::directory_iterator(path("rounds"))) shown.push_back(read_mesh(entry.path()).points);
+  ASSERT_GT(shown.size(), 20U) << "of the region's surface, and of 24 rounds";
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) EXPECT_NE(shown[i], shown[j]) << "no surface is shown twice";
+  }
+  ASSERT_EQ(run("segment ball.nrrd --start a.obj -o b.obj --frames again").status, 0);
+  EXPECT_EQ(read_mesh(path("again/round-000.obj")).points, read_mesh(path("a.obj")).points);
+}
+
+/// The limit surfaces of two control meshes as triangles.
+std::vector<Mesh> surfaces_of(const std::vector<std::string>& paths) {
+  std::vector<Mesh> meshes;
+  for (const std::string& path : paths) {
+    const Mesh control = read_mesh(path);
+    meshes.push_back(triangulated(surface_of_faces(Topology(control), choose_scheme(control), control, 100000)));
+  }
+  return meshes;
+}
+
+TEST_F(SegmentTool, SurfacesTogetherDoNotMeet) {
+  std::string halves = ball();
+  const std::size_t data = halves.find("\n\n");
+  for (std::size_t at = data, voxel = 0; at < halves.size(); ++at) {
+    if (halves[at] != '7' && halves[at] != '0') continue;
+    if (halves[at] == '7' && voxel % 20 < 10) halves[at] = '3';
+    ++voxel;
+  }
+  write("halves.nrrd", halves);
+  const Outcome result =
+      run("segment halves.nrrd --label 3,7 --together --vertices 100 -o a.obj --report r.json --inside in.nrrd");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("label 7"), std::string::npos) << result.out;
+  EXPECT_TRUE(find_meetings(surfaces_of({path("a-3.obj"), path("a-7.obj")})).empty());
+  EXPECT_FALSE(fs::exists(path("a.obj")));
+  const auto report = nlohmann::json::parse(text_of(path("r.json")));
+  ASSERT_EQ(report.at("surfaces").size(), 2U);
+  for (const auto& surface : report.at("surfaces")) EXPECT_GT(surface.at("dice"), 0.9);
+  EXPECT_LT(read_mesh(path("a-7.obj")).points.col(0).mean(), read_mesh(path("a-3.obj")).points.col(0).mean())
+      << "the first index grows to the left";
+  EXPECT_NE(run("segment in.nrrd --label 5 -o c.obj").err.find("there are 3, 7"), std::string::npos)
+      << "the inside has the labels' numbers";
+  EXPECT_EQ(run("segment halves.nrrd --label 3,7 --together --seed=1,2,3 -o b.obj").status, 2);
+  EXPECT_EQ(run("segment halves.nrrd --together -o b.obj").status, 2);
+  EXPECT_EQ(run("segment halves.nrrd --label 3 --together -o b.obj").status, 1);
+}
+
+TEST_F(SegmentTool, NeighboursOfAnAtlasDoNotMeet) {
+  const std::string atlas = "/usr/share/mricron/templates/aal.nii.gz";
+  if (!fs::exists(atlas)) GTEST_SKIP() << "needs Debian's mricron-data";
+  const Outcome result = run("segment " + atlas + " --label 37,41 --together -o a.obj --report r.json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const auto report = nlohmann::json::parse(text_of(path("r.json")));
+  EXPECT_GT(report.at("together").at("first_meetings"), 100) << "hippocampus and amygdala meet where each is alone";
+  EXPECT_TRUE(find_meetings(surfaces_of({path("a-37.obj"), path("a-41.obj")})).empty());
+  for (const auto& surface : report.at("surfaces")) {
+    EXPECT_EQ(surface.at("self_intersections"), 0);
+    EXPECT_GT(surface.at("dice"), 0.96);
+  }
 }
 
 TEST_F(SegmentTool, WritesTheFineSurfaceForProgramsOfMedicine) {

@@ -1,8 +1,8 @@
 #include "batten/volume/guarded_steps.h"
 
 #include <algorithm>
+#include <utility>
 
-#include "batten/fit/surface_film.h"
 #include "batten/mesh/self_intersections.h"
 #include "batten/volume/segment_measures.h"
 
@@ -20,10 +20,15 @@ std::int64_t meetings_of(const SurfaceFitter& fitter) {
 
 }  // namespace
 
-GuardedSteps::GuardedSteps(SurfaceFitter& fitter, const std::optional<VolumeGrid>& within)
-    : fitter_(fitter), within_(within) {
+GuardedSteps::GuardedSteps(SurfaceFitter& fitter, const std::optional<VolumeGrid>& within, FrameWatcher watch)
+    : fitter_(fitter), within_(within), watch_(std::move(watch)) {
   if (within_) fitter_.move_to(moved_inside(*within_, fitter_.control()));
   meetings_ = meetings_of(fitter_);
+  show();
+}
+
+void GuardedSteps::show() const {
+  if (watch_) watch_({fitter_.topology(), fitter_.scheme(), fitter_.control()});
 }
 
 bool GuardedSteps::take(FitStep step, int halvings) {
@@ -42,7 +47,11 @@ bool GuardedSteps::take(FitStep step, int halvings) {
     sound = after == 0 || after < meetings_;
     if (sound) meetings_ = after;
   }
-  if (!sound) fitter_.move_to(before);
+  if (sound) {
+    show();
+  } else {
+    fitter_.move_to(before);
+  }
   fitter_.attach();
   ++(sound ? taken_ : cut_);
   return sound;

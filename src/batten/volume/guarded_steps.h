@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "batten/fit/surface_film.h"
 #include "batten/fit/surface_fitter.h"
 #include "batten/volume/volume.h"
 
@@ -13,7 +14,8 @@ class GuardedSteps {
  public:
   /// within: control points outside of its voxels, now or after a step, go to their outer faces; as the surface lies in
   /// the hull of its control points, it is inside, too. The fitter must outlive this.
-  explicit GuardedSteps(SurfaceFitter& fitter, const std::optional<VolumeGrid>& within = {});
+  /// watch: is shown the start and the surface after each step that is taken.
+  explicit GuardedSteps(SurfaceFitter& fitter, const std::optional<VolumeGrid>& within = {}, FrameWatcher watch = {});
 
   /// Needs SurfaceFitter::attach() first and leaves the surface attached. halvings: how often a shorter step is tried.
   /// False where the step was taken back.
@@ -23,8 +25,11 @@ class GuardedSteps {
   int cut() const { return cut_; }
 
  private:
+  void show() const;
+
   SurfaceFitter& fitter_;
   std::optional<VolumeGrid> within_;
+  FrameWatcher watch_;
   std::int64_t meetings_ = 0;  ///< pairs of triangles that meet
   int taken_ = 0;
   int cut_ = 0;

@@ -6,7 +6,6 @@
 
 #include "batten/error.h"
 #include "batten/fit/first_mesh.h"
-#include "batten/fit/surface_film.h"
 #include "batten/fit/surface_fitter.h"
 #include "batten/volume/guarded_steps.h"
 #include "batten/volume/label_mask.h"
@@ -26,8 +25,8 @@ void require_options(const SegmentOptions& options) {
     throw Error(ErrorCode::BadArgument, "the smoothing is 0 voxels or more");
 }
 
-/// The rounds: fairness falls until the surface is near enough.
-void draw_to_border(SurfaceFitter& fitter, GuardedSteps& steps, double wanted, const Progress& progress) {
+/// The rounds: fairness falls until the surface is near enough. Returns that of the last step.
+double draw_to_border(SurfaceFitter& fitter, GuardedSteps& steps, double wanted, const Progress& progress) {
   constexpr int kMostRounds = 24;
   // A round with half the fairness of the one before gains so much, or control points only move apart.
   constexpr double kGain = 0.04;
@@ -38,17 +37,20 @@ void draw_to_border(SurfaceFitter& fitter, GuardedSteps& steps, double wanted, c
   FitStep step;
   step.fairness = kFirstFairness;
   double last = std::numeric_limits<double>::infinity();
+  double taken = step.fairness;
   for (int round = 0; round < kMostRounds && steps.cut() < kMostCuts; ++round) {
     report_progress(progress, static_cast<double>(round) / kMostRounds);
     if (!steps.take(step)) {
       step.fairness *= kCutFall;
       continue;
     }
+    taken = step.fairness;
     const double rms = rms_of(fitter.distances());
     if (rms <= wanted || rms > (1.0 - kGain) * last) break;
     last = rms;
     step.fairness *= kFall;
   }
+  return taken;
 }
 
 }  // namespace
@@ -63,14 +65,14 @@ Segmentation segment_mask(const Volume& mask, const SegmentOptions& options, con
   first.bridge = 0.0;
   const FirstMesh start = first_mesh(border, first, progress_within(progress, 0.0, 0.5));
   SurfaceFitter fitter(Topology(start.mesh), options.scheme, start.mesh.points, border);
-  GuardedSteps steps(fitter, options.within);
+  GuardedSteps steps(fitter, options.within, options.watch);
   fitter.attach();
   Segmentation result{{}, fitter.topology(), options.scheme};
   result.genus = start.genus();
   result.components = static_cast<Index>(start.parts.size());
   result.dropped_parts = start.dropped_parts;
   const double voxel = std::cbrt(mask.grid.voxel_volume());
-  draw_to_border(fitter, steps, options.smoothing * voxel, progress_within(progress, 0.5, 1.0));
+  result.fairness = draw_to_border(fitter, steps, options.smoothing * voxel, progress_within(progress, 0.5, 1.0));
   result.rounds = steps.taken();
   result.cut_steps = steps.cut();
   result.border_rms = rms_of(fitter.distances());

@@ -2,6 +2,7 @@
 #pragma once
 #include <optional>
 
+#include "batten/fit/surface_film.h"
 #include "batten/mesh/mesh.h"
 #include "batten/mesh/topology.h"
 #include "batten/progress.h"
@@ -18,6 +19,7 @@ struct SegmentOptions {
   /// How far the surface may stay away from the steps between voxels to be smooth: RMS, in voxels.
   double smoothing = 0.15;
   std::optional<VolumeGrid> within;  ///< the surface does not leave these voxels
+  FrameWatcher watch;                ///< is shown the start and the surface after each step
 };
 
 /// A closed surface in the world, and how it was found.
@@ -30,6 +32,7 @@ struct Segmentation {
   Index dropped_parts = 0;  ///< specks too small to follow
   int rounds = 0;           ///< steps that moved the surface
   int cut_steps = 0;        ///< steps taken back, because the surface would have met itself
+  double fairness = 0.0;    ///< of the last step (FitStep)
   double border_rms = 0.0;  ///< of the distances from the middles of the voxels' outer faces, mm
 };
 
@@ -50,6 +53,7 @@ struct ImageFitOptions {
   double fairness = 0.1;         ///< in the end (FitStep)
   int rounds = 24;
   bool leave_blur = true;  ///< moves the surface off the edges to where they were before the blur (volume/edge_blur.h)
+  FrameWatcher watch;      ///< is shown the start and the surface after each step
 };
 
 /// Draws a surface to the edges of an image and to points. In each round every place of a grid on the surface looks

@@ -6,7 +6,6 @@
 
 #include "batten/dynamics/surface_samples.h"
 #include "batten/error.h"
-#include "batten/fit/surface_film.h"
 #include "batten/volume/edge_blur.h"
 #include "batten/volume/edge_search.h"
 #include "batten/volume/guarded_steps.h"
@@ -75,7 +74,7 @@ class ImageRounds {
         jets_(asked_.size()),
         fitter_(start.topology, start.scheme, start.mesh.points,
                 {start.mesh.points, Points::Zero(start.mesh.points.rows(), 3)}),
-        steps_(fitter_, image.grid),
+        steps_(fitter_, image.grid, options.watch),
         surface_(patches_, fitter_.control()) {}
 
   /// early: 1 at first, 0 in the end.

@@ -24,14 +24,16 @@ Mesh surface_of_faces(const Topology& topology, const Scheme& scheme, const Mesh
   return surface_mesh(topology, scheme, control, levels);
 }
 
-SurfaceMeasures measure_surface(const Topology& topology, const Scheme& scheme, const Mesh& control) {
-  constexpr std::int64_t kFaces = 60000;
+SurfaceMeasures measure_surface(const Topology& topology, const Scheme& scheme, const Mesh& control,
+                                const Progress& progress) {
   SurfaceMeasures measures;
-  measures.fine = triangulated(surface_of_faces(topology, scheme, control, kFaces));
-  const Topology fine(measures.fine);
+  measures.fine = triangulated(surface_of_faces(topology, scheme, control, kMeasuredFaces));
+  report_progress(progress, 0.3);
+  const Topology fine(measures.fine, progress_within(progress, 0.3, 0.5));
   measures.area = surface_area(fine, measures.fine.points);
   measures.volume = component_volumes(fine, measures.fine.points).sum();
-  measures.self_intersections = find_self_intersections(fine, measures.fine.points).count;
+  measures.self_intersections =
+      find_self_intersections(fine, measures.fine.points, progress_within(progress, 0.5, 1.0)).count;
   return measures;
 }
 

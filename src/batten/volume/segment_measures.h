@@ -4,10 +4,14 @@
 
 #include "batten/mesh/topology.h"
 #include "batten/nearest/distance_summary.h"
+#include "batten/progress.h"
 #include "batten/scheme/scheme.h"
 #include "batten/volume/volume.h"
 
 namespace batten {
+
+/// What measure_surface() refines to.
+inline constexpr std::int64_t kMeasuredFaces = 60000;
 
 /// A closed surface as a fine mesh, and what it holds.
 struct SurfaceMeasures {
@@ -21,8 +25,9 @@ struct SurfaceMeasures {
 Mesh surface_of_faces(const Topology& topology, const Scheme& scheme, const Mesh& control, std::int64_t least);
 
 /// control: the mesh of the topology. Refines so far that the volume is exact to about 1e-5. Throws what surface_mesh()
-/// throws.
-SurfaceMeasures measure_surface(const Topology& topology, const Scheme& scheme, const Mesh& control);
+/// throws; Cancelled.
+SurfaceMeasures measure_surface(const Topology& topology, const Scheme& scheme, const Mesh& control,
+                                const Progress& progress = {});
 
 /// How a surface agrees with a mask.
 struct MaskAgreement {

@@ -1,6 +1,7 @@
 #include "batten/volume/segment_volume.h"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "batten/error.h"
@@ -16,6 +17,9 @@ namespace {
 void require_request(const SegmentRequest& request) {
   const int starts = (request.points.rows() > 0 ? 1 : 0) + (request.seed ? 1 : 0) + (request.start ? 1 : 0);
   if (starts > 1) throw Error(ErrorCode::BadArgument, "a surface starts from points, from a seed or from a mesh");
+  if (starts > 0 && !request.labels && !request.label.empty())
+    throw Error(ErrorCode::BadArgument,
+                "a label beside points, a seed or a mesh needs the volume of labels that it is in");
   if (request.seed_options.range && !request.seed)
     throw Error(ErrorCode::BadArgument, "a range of numbers goes with a seed");
 }
@@ -47,48 +51,80 @@ Segmentation started_from(const Mesh& mesh, const Volume& image, Scheme scheme) 
 }
 
 /// What the edges of the image draw, and the region of a seed.
-Segmentation first_surface(const Volume& image, const SegmentRequest& request, const Volume* mask,
-                           std::optional<SeedRegion>& region, const Progress& progress) {
+Segmentation first_surface(const Volume& image, const SegmentRequest& request, SegmentOptions options,
+                           const Volume* mask, std::optional<SeedRegion>& region, const Progress& progress) {
   if (request.start) return started_from(*request.start, image, request.surface.scheme);
-  if (request.points.rows() > 0) return segment_mask(points_mask(request.points), request.surface, progress);
+  if (request.points.rows() > 0) return segment_mask(points_mask(request.points), options, progress);
   if (request.seed) {
     region = seed_region(image, *request.seed, request.seed_options, progress_within(progress, 0.0, 0.2));
-    return segment_mask(region->mask, request.surface, progress_within(progress, 0.2, 1.0));
+    return segment_mask(region->mask, options, progress_within(progress, 0.2, 1.0));
   }
-  SegmentOptions options = request.surface;
   if (!options.within) options.within = request.labels ? request.labels->grid : image.grid;
   return segment_mask(*mask, options, progress);
 }
 
-}  // namespace
+/// Is shown every surface once: one stage starts from what the stage before has shown.
+FrameWatcher without_repeats(const FrameWatcher& watch) {
+  if (!watch) return {};
+  return [watch, last = std::make_shared<Points>(0, 3)](const SurfaceFrame& frame) {
+    if (frame.control.rows() == last->rows() && frame.control == *last) return;
+    *last = frame.control;
+    watch(frame);
+  };
+}
 
-SegmentResult segment_volume(const Volume& image, const SegmentRequest& request, const Progress& progress) {
-  constexpr double kAlpha = 2.0;          // of the smoothing before edges are measured, 1/mm
-  constexpr double kNearFairness = 0.05;  // of starts that lie on edges or near them
-  require_request(request);
-  require_volume(image);
-  const bool started = request.points.rows() > 0 || request.seed || request.start;
-  const bool drawn = started || request.edges;
-  std::optional<Volume> mask;
-  if (!started || request.labels) mask = label_mask(request.labels ? *request.labels : image, request.label);
-  std::optional<SeedRegion> region;
-  Segmentation surface =
-      first_surface(image, request, mask ? &*mask : nullptr, region, progress_within(progress, 0.0, drawn ? 0.5 : 1.0));
-  if (!is_closed(surface.topology, surface.mesh.points))
-    throw Error(ErrorCode::NotConverged,
-                "the part is too thin for so few control points: its surface does not close; take more of them");
+/// What draws a surface to edges, where nothing is said: seeds and meshes lie near them already.
+ImageFitOptions image_options(const SegmentRequest& request) {
+  constexpr double kNearFairness = 0.05;
   ImageFitOptions options = request.image.value_or(ImageFitOptions{});
   if (!request.image && (request.seed || request.start)) {
     options.fairness = kNearFairness;
     options.first_smoothing = 1.0;
     options.first_reach = 1.0;
   }
-  if (drawn) surface = segment_image(surface, image, request.points, options, progress_within(progress, 0.5, 1.0));
-  SurfaceMeasures measures = measure_surface(surface.topology, surface.scheme, surface.mesh);
-  std::optional<MaskAgreement> agreement;
-  if (mask) agreement = compare_with_mask(measures.fine, *mask);
-  const EdgeStrength edges = edge_strength(measures.fine, image, kAlpha);
-  return {std::move(surface), std::move(region), std::move(measures), agreement, edges};
+  return options;
+}
+
+}  // namespace
+
+SegmentResult measured_segment(Segmentation surface, const Volume& image, const std::optional<Volume>& mask,
+                               const Progress& progress) {
+  constexpr double kAlpha = 2.0;  // of the smoothing before edges are measured, 1/mm
+  if (!is_closed(surface.topology, surface.mesh.points))
+    throw Error(ErrorCode::NotConverged,
+                "the part is too thin for so few control points: its surface does not close; take more of them");
+  SegmentResult result{std::move(surface), {}, {}, {}, {}};
+  const Segmentation& found = result.surface;
+  result.measures = measure_surface(found.topology, found.scheme, found.mesh, progress_within(progress, 0.0, 0.5));
+  report_progress(progress, 0.5);
+  if (mask) result.agreement = compare_with_mask(result.measures.fine, *mask);
+  report_progress(progress, 0.7);
+  result.edges = edge_strength(result.measures.fine, image, kAlpha);
+  report_progress(progress, 1.0);
+  return result;
+}
+
+SegmentResult segment_volume(const Volume& image, const SegmentRequest& request, const Progress& progress) {
+  constexpr double kFound = 0.9;  // of the time, before the surface is measured
+  require_request(request);
+  require_volume(image);
+  SegmentOptions first = request.surface;
+  first.watch = without_repeats(first.watch);
+  const bool started = request.points.rows() > 0 || request.seed || request.start;
+  const bool drawn = started || request.edges;
+  std::optional<Volume> mask;
+  if (!started || request.labels) mask = label_mask(request.labels ? *request.labels : image, request.label);
+  std::optional<SeedRegion> region;
+  Segmentation surface = first_surface(image, request, first, mask ? &*mask : nullptr, region,
+                                       progress_within(progress, 0.0, drawn ? 0.5 * kFound : kFound));
+  if (drawn) {
+    ImageFitOptions options = image_options(request);
+    if (!options.watch) options.watch = first.watch;
+    surface = segment_image(surface, image, request.points, options, progress_within(progress, 0.5 * kFound, kFound));
+  }
+  SegmentResult result = measured_segment(std::move(surface), image, mask, progress_within(progress, kFound, 1.0));
+  result.region = std::move(region);
+  return result;
 }
 
 }  // namespace batten

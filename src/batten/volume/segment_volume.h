@@ -11,7 +11,7 @@ namespace batten {
 
 /// What a surface starts from, and what it is drawn to.
 struct SegmentRequest {
-  SegmentOptions surface;
+  SegmentOptions surface;  ///< its watch is shown all surfaces, also those that are drawn to edges
   /// The volume of labels, on a grid of its own; without, the image itself is one. Where the surface starts from
   /// something else, labels are only compared with.
   std::optional<Volume> labels;
@@ -36,9 +36,14 @@ struct SegmentResult {
 };
 
 /// Labels, points, a seed or a mesh: at most one of the last three is given. Labels alone give segment_mask(); all else
-/// is drawn to the image's edges by segment_image(). Throws Error(BadArgument) for two starts, a start that is not
-/// closed or not in the image, Error(NotConverged) where the first surface does not close, and what the functions named
-/// here throw; Cancelled.
+/// is drawn to the image's edges by segment_image(). Throws Error(BadArgument) for two starts, a label beside a
+/// start without labels, a start that is not closed or not in the image, Error(NotConverged) where the first surface
+/// does not close, and what the functions named here throw; Cancelled.
 SegmentResult segment_volume(const Volume& image, const SegmentRequest& request, const Progress& progress = {});
+
+/// A surface that was found, and how it sits in the image and to a mask (label_mask()). Throws Error(NotConverged)
+/// where it does not close; Cancelled.
+SegmentResult measured_segment(Segmentation surface, const Volume& image, const std::optional<Volume>& mask,
+                               const Progress& progress = {});
 
 }  // namespace batten

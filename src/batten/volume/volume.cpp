@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
@@ -106,6 +107,14 @@ double interpolated(const Volume& volume, const Eigen::Vector3d& index) {
 Points in_space(Points points, WorldSpace space) {
   if (space == WorldSpace::Lps) points.leftCols(2) *= -1.0;
   return points;
+}
+
+Mesh in_space(Mesh mesh, WorldSpace space) {
+  mesh.points = in_space(std::move(mesh.points), space);
+  for (Attribute& attribute : mesh.attributes) {
+    if (attribute.name == "normal" && space == WorldSpace::Lps) attribute.values.leftCols(2) *= -1.0;
+  }
+  return mesh;
 }
 
 }  // namespace batten

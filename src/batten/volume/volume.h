@@ -9,6 +9,7 @@
 #include <string>
 
 #include "batten/buffer.h"
+#include "batten/mesh/mesh.h"
 #include "batten/types.h"
 
 namespace batten {
@@ -65,5 +66,8 @@ double interpolated(const Volume& volume, const Eigen::Vector3d& index);
 
 /// Points in RAS as points in `space`, or back.
 Points in_space(Points points, WorldSpace space);
+
+/// A mesh in RAS as one in `space`, or back, with its attribute "normal".
+Mesh in_space(Mesh mesh, WorldSpace space);
 
 }  // namespace batten
