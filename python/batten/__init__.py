@@ -38,6 +38,7 @@ from .surface import (
     LimitSurface,
     Nearest,
     NearestPoints,
+    Refinement,
     SparseRows,
     Tessellator,
     distance,
@@ -46,7 +47,7 @@ from .surface import (
     surface_weights,
     tessellate,
 )
-from .volumes import Segmented, Volume, read_volume, segment, write_volume
+from .volumes import Segmented, Together, Volume, read_volume, segment, segment_together, write_volume
 
 _native.set_error_type(Error)
 
@@ -77,6 +78,7 @@ __all__ = [
     "NearestPoints",
     "Place",
     "Problem",
+    "Refinement",
     "RepairChange",
     "Repaired",
     "SegmentReport",
@@ -86,6 +88,7 @@ __all__ = [
     "SparseRows",
     "SurfaceEnergy",
     "Tessellator",
+    "Together",
     "UpdateReport",
     "Updates",
     "Volume",
@@ -104,6 +107,7 @@ __all__ = [
     "render",
     "repair",
     "segment",
+    "segment_together",
     "sharpen",
     "subdivide",
     "surface_weights",

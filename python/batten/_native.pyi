@@ -44,6 +44,12 @@ class Topology:
     def face_count(self) -> int: ...
     def edge_count(self) -> int: ...
 
+class Refinement:
+    def __init__(self, topology: Topology, scheme: Scheme, progress: _Progress, /) -> None: ...
+    def vertex_count(self) -> int: ...
+    def apply(self, values: npt.ArrayLike, progress: _Progress, /) -> _Doubles: ...
+    def mesh(self, points: _Doubles, /) -> MeshData: ...
+
 class Interpolator:
     def __init__(
         self,
@@ -272,6 +278,9 @@ def fit(
     tolerance: float,
     genus: Optional[int],
     bridge: Optional[float],
+    method: str,
+    creases: Optional[str],
+    rounds: Optional[int],
     progress: _Progress,
     /,
 ) -> tuple[MeshData, _Doubles, dict[str, Any]]: ...
@@ -284,6 +293,15 @@ def segment(
     progress: _Progress,
     /,
 ) -> tuple[MeshData, MeshData, dict[str, Any]]: ...
+def segment_together(
+    values: npt.NDArray[Any],
+    affine: _Doubles,
+    mask: Optional[tuple[npt.NDArray[Any], _Doubles]],
+    options: dict[str, Any],
+    space: str,
+    progress: _Progress,
+    /,
+) -> tuple[list[tuple[MeshData, MeshData, dict[str, Any]]], int, int, float]: ...
 def inside(
     fine: MeshData, space: str, size: tuple[int, int, int], affine: _Doubles, parts: bool, /
 ) -> npt.NDArray[np.float32]: ...

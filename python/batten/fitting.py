@@ -39,6 +39,9 @@ def fit(
     scheme: str = "auto",
     genus: int | None = None,
     bridge: float | None = None,
+    method: str = "squared-distance",
+    creases: str | None = None,
+    rounds: int | None = None,
     progress: Progress = None,
 ) -> Fit:
     """A control mesh whose limit surface passes near points, (n, 3).
@@ -50,12 +53,16 @@ def fit(
         init: "auto": a first mesh of the right genus; "sphere"; or a mesh, whose vertex i is vertex i of the result.
         genus: demanded of the first mesh.
         bridge: gaps up to this width are closed, wider ones become boundaries.
+        method: "squared-distance", or "dynamic": by springs that draw an elastic surface.
+        creases: "auto": along sharp edges that the points show, or the tags of a mesh in ``init``; "none"; "keep": those
+            tags alone. "auto" if not given.
+        rounds: at most so many for each number of control points.
     """
     cloud = points_array(points)
     start, initial = (init, None) if isinstance(init, str) else ("auto", as_mesh(init)._data())
     directions = np.zeros((0, 3)) if normals is None else points_array(normals, "normals")
     data, distances, numbers = _native.fit(
-        cloud, directions, start, initial, scheme, vertices, float(tolerance), genus, bridge, callback(progress)
+        cloud, directions, start, initial, scheme, vertices, float(tolerance), genus, bridge, method, creases, rounds, callback(progress)
     )
     for way in ("to_surface", "to_points"):
         numbers[way] = DistanceSummary(**numbers[way])

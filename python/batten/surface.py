@@ -215,6 +215,35 @@ def distance(
     return Distances(values, DistanceSummary(**_native.summarize(values)), closed, diagonal)
 
 
+class Refinement(Rebuilt):
+    """One step of uniform refinement, made once for a connectivity and used for any values at its vertices.
+
+    Row i < n of what comes out belongs to vertex i; then come the edges, and for Catmull-Clark the faces.
+    """
+
+    def __init__(
+        self, mesh: Any, *, scheme: str = "auto", boundary: str | None = None, progress: Progress = None
+    ) -> None:
+        self._control = as_mesh(mesh)
+        self._native = _native.Refinement(*self._control._surface(scheme, boundary), callback(progress))
+
+    @property
+    def vertex_count(self) -> int:
+        """Of the refined mesh."""
+        return self._native.vertex_count()
+
+    @property
+    def mesh(self) -> Mesh:
+        """The refined control mesh of the one that was given, without its attributes; the surface is the same."""
+        return Mesh._of(self._native.mesh(self(self._control.points)))
+
+    def __call__(self, values: npt.ArrayLike, *, progress: Progress = None) -> Array:
+        """Values at the refined mesh's vertices, (n', k) or (n',), from those at the control mesh's, (n, k) or (n,)."""
+        given = np.asarray(values, dtype=np.float64)
+        refined = self._native.apply(given, callback(progress))
+        return refined[:, 0] if given.ndim == 1 else refined
+
+
 class Tessellator(Rebuilt):
     """The limit surface, or the refined control mesh, of the same connectivity again and again, into the same memory.
 

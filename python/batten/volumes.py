@@ -18,7 +18,7 @@ from .mesh import Array, Mesh, PathLike, as_mesh, points_array
 from .progress import Progress, callback
 from .reports import DistanceSummary, SegmentReport
 
-__all__ = ["Segmented", "Volume", "read_volume", "segment", "write_volume"]
+__all__ = ["Segmented", "Together", "Volume", "read_volume", "segment", "segment_together", "write_volume"]
 
 
 _LPS = np.diag([-1.0, -1.0, 1.0, 1.0])
@@ -181,6 +181,23 @@ class Segmented:
         return _native.inside(self.fine._data(), self.space, self.shape, self.affine, True)
 
 
+@dataclass(frozen=True)
+class Together:
+    """Surfaces of several labels that do not meet each other.
+
+    Attributes:
+        surfaces: in the order of the labels; the seconds of their reports are those of all.
+        first_meetings: pairs of triangles of two surfaces that met before they were moved apart.
+        rounds: that moved them apart.
+        most_withdrawn: how far the border that they are drawn to was moved inwards at most, mm.
+    """
+
+    surfaces: tuple[Segmented, ...]
+    first_meetings: int
+    rounds: int
+    most_withdrawn: float
+
+
 def _labels(label: Any) -> list[float]:
     if label is None:
         return []
@@ -210,6 +227,20 @@ def _mask_pair(mask: Any, image: Volume) -> tuple[npt.NDArray[Any], Array] | Non
     if given.shape != image.shape:
         raise Error(f"labels of shape {given.shape} for an image of shape {image.shape}; give a Volume", "bad-shape")
     return given.values, given.affine
+
+
+def _segmented(
+    mesh: _native.MeshData,
+    fine: _native.MeshData,
+    report: dict[str, Any],
+    volume: Volume,
+    space: str,
+    seconds: float,
+) -> Segmented:
+    for way in ("to_surface", "to_border"):
+        report[way] = None if report[way] is None else DistanceSummary(**report[way])
+    numbers = SegmentReport(**report, seconds=seconds)
+    return Segmented(Mesh._of(mesh), Mesh._of(fine), numbers, volume.shape, volume.affine, space)
 
 
 def segment(
@@ -270,8 +301,43 @@ def segment(
         "smoothing": smoothing,
         "scheme": scheme,
     }
-    mesh, fine, report = _native.segment(given.values, given.affine, labels, options, space, callback(progress))
-    for way in ("to_surface", "to_border"):
-        report[way] = None if report[way] is None else DistanceSummary(**report[way])
-    report["seconds"] = time.perf_counter() - began
-    return Segmented(Mesh._of(mesh), Mesh._of(fine), SegmentReport(**report), given.shape, given.affine, space)
+    found = _native.segment(given.values, given.affine, labels, options, space, callback(progress))
+    return _segmented(*found, given, space, time.perf_counter() - began)
+
+
+def segment_together(
+    image: Any,
+    labels: abc.Sequence[int],
+    *,
+    spacing: float | abc.Sequence[float] | None = None,
+    affine: npt.ArrayLike | None = None,
+    mask: Any = None,
+    vertices: int | None = None,
+    genus: int | None = None,
+    smoothing: float | None = None,
+    scheme: str | None = None,
+    space: str = "ras",
+    progress: Progress = None,
+) -> Together:
+    """A surface for each of several labels; the surfaces do not meet each other. Arguments are those of ``segment``."""
+    began = time.perf_counter()
+    given = _as_volume(image, spacing, affine, space)
+    pair = _mask_pair(mask, given)
+    options = {
+        "label": _labels(labels),
+        "points": np.zeros((0, 3)),
+        "seed": None,
+        "numbers": None,
+        "start": None,
+        "edges": False,
+        "vertices": vertices,
+        "genus": genus,
+        "smoothing": smoothing,
+        "scheme": scheme,
+    }
+    surfaces, meetings, rounds, withdrawn = _native.segment_together(
+        given.values, given.affine, pair, options, space, callback(progress)
+    )
+    seconds = time.perf_counter() - began
+    parts = tuple(_segmented(*found, given, space, seconds) for found in surfaces)
+    return Together(parts, meetings, rounds, withdrawn)

@@ -16,21 +16,28 @@ namespace batten::python {
 namespace {
 
 const Words<FitStart> kStarts{{"auto", FitStart::Auto}, {"sphere", FitStart::Sphere}};
+const Words<FitMethod> kFitMethods{{"squared-distance", FitMethod::SquaredDistance}, {"dynamic", FitMethod::Dynamic}};
+const Words<FitCreases> kFitCreases{{"auto", FitCreases::Auto}, {"none", FitCreases::None}, {"keep", FitCreases::Keep}};
 const Words<FitEnd> kEnds{{"tolerance", FitEnd::Tolerance},
                           {"budget", FitEnd::Budget},
                           {"rounds", FitEnd::Rounds},
                           {"cancelled", FitEnd::Cancelled}};
 
-/// initial: None, or a mesh. vertices, genus, bridge: None where nothing is said.
+/// initial: None, or a mesh. vertices, genus, bridge, creases, rounds: None where nothing is said.
 py::tuple fitted(const Doubles& points, const Doubles& normals, const std::string& start, const py::object& initial,
                  const std::string& scheme, const std::optional<Index>& vertices, double tolerance,
-                 const std::optional<Index>& genus, const std::optional<double>& bridge, const py::object& progress) {
+                 const std::optional<Index>& genus, const std::optional<double>& bridge, const std::string& method,
+                 const std::optional<std::string>& creases, const std::optional<int>& rounds,
+                 const py::object& progress) {
   FitOptions options;
   options.start = choice_of(start, kStarts, "the start");
   if (!initial.is_none()) {
     options.initial = initial.cast<const Mesh&>();
     options.scheme = choose_scheme(*options.initial);
   }
+  options.method = choice_of(method, kFitMethods, "the method");
+  if (creases) options.creases = choice_of(*creases, kFitCreases, "creases");
+  options.rounds = rounds.value_or(options.rounds);
   if (scheme != "auto") options.scheme.kind = choice_of(scheme, kSchemes, "the scheme");
   options.vertices = vertices;
   options.tolerance = tolerance;

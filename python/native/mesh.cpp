@@ -145,6 +145,22 @@ void bind_mesh(py::module_& module) {
       .def("vertex_count", &Topology::vertex_count)
       .def("face_count", &Topology::face_count)
       .def("edge_count", &Topology::edge_count);
+  py::class_<Refinement>(module, "Refinement")
+      .def(py::init([](const Topology& topology, const Scheme& scheme, const py::object& progress) {
+        return run(progress, [&](const Progress& report) { return Refinement(topology, scheme, {}, report); });
+      }))
+      .def("vertex_count", [](const Refinement& refinement) { return refinement.child().vertex_count(); })
+      .def("apply",
+           [](const Refinement& refinement, const Doubles& values, const py::object& progress) {
+             const Eigen::Map<const Values> rows = rows_of(values);
+             return array_of(run(progress, [&](const Progress& report) { return refinement.apply(rows, report); }));
+           })
+      .def("mesh", [](const Refinement& refinement, const Doubles& points) {
+        Mesh mesh = mesh_from_topology(refinement.child());
+        mesh.points = points_of(points);
+        state_scheme(refinement.scheme().after_first_step(), mesh);
+        return mesh;
+      });
   module.def("scheme_of", &scheme_of);
   module.def("check", &problems_of);
   module.def("repair", &repaired);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "batten/volume/inside_volume.h"
-#include "batten/volume/segment_volume.h"
+#include "batten/volume/segment_together.h"
 #include "native/bind.h"
 #include "native/calls.h"
 #include "native/summary.h"
@@ -76,17 +76,37 @@ py::dict report_of(const SegmentResult& found) {
   return report;
 }
 
-/// mask: None, or values and affine. The control mesh and the fine mesh, in `space`, and the report.
-py::tuple segment(const Voxels& values, const Doubles& affine, const std::optional<std::pair<Voxels, Doubles>>& mask,
-                  const py::dict& options, const std::string& world, const py::object& progress) {
+using MaskPair = std::optional<std::pair<Voxels, Doubles>>;  ///< values and affine
+
+/// The control mesh and the fine mesh, in `space`, and the report.
+py::tuple tuple_of(SegmentResult&& found, WorldSpace space) {
+  py::dict report = report_of(found);
+  return py::make_tuple(in_space(std::move(found.surface.mesh), space), in_space(std::move(found.measures.fine), space),
+                        report);
+}
+
+py::tuple segment(const Voxels& values, const Doubles& affine, const MaskPair& mask, const py::dict& options,
+                  const std::string& world, const py::object& progress) {
   const WorldSpace space = choice_of(world, kSpaces, "the space");
   const Volume image = volume_of(values, affine);
   SegmentRequest request = request_of(options, space);
   if (mask) request.labels = volume_of(mask->first, mask->second);
   SegmentResult found = run(progress, [&](const Progress& report) { return segment_volume(image, request, report); });
-  py::dict report = report_of(found);
-  return py::make_tuple(in_space(std::move(found.surface.mesh), space), in_space(std::move(found.measures.fine), space),
-                        report);
+  return tuple_of(std::move(found), space);
+}
+
+/// A list of what segment() gives, and how the surfaces were kept apart.
+py::tuple together(const Voxels& values, const Doubles& affine, const MaskPair& mask, const py::dict& options,
+                   const std::string& world, const py::object& progress) {
+  const WorldSpace space = choice_of(world, kSpaces, "the space");
+  const Volume image = volume_of(values, affine);
+  SegmentRequest request = request_of(options, space);
+  if (mask) request.labels = volume_of(mask->first, mask->second);
+  TogetherResult result =
+      run(progress, [&](const Progress& report) { return segment_together(image, request, report); });
+  py::list surfaces;
+  for (SegmentResult& found : result.surfaces) surfaces.append(tuple_of(std::move(found), space));
+  return py::make_tuple(surfaces, result.first_meetings, result.rounds, result.most_withdrawn);
 }
 
 py::array inside(const Mesh& fine, const std::string& world, const std::array<Index, 3>& size, const Doubles& affine,
@@ -104,6 +124,7 @@ py::array inside(const Mesh& fine, const std::string& world, const std::array<In
 
 void bind_segment(py::module_& module) {
   module.def("segment", &segment);
+  module.def("segment_together", &together);
   module.def("inside", &inside);
 }
 

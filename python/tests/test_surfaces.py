@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pathlib
+import pickle
 import subprocess
 
 import numpy as np
@@ -114,6 +115,22 @@ def test_tessellators_reuse_their_memory(creature: batten.Mesh) -> None:
         batten.tessellate(creature)
 
 
+def test_a_refinement_is_that_of_subdivide(creature: batten.Mesh) -> None:
+    step = batten.Refinement(creature)
+    expected = batten.subdivide(creature)
+    assert step.vertex_count == expected.vertex_count
+    assert np.array_equal(step.mesh.points, expected.points)
+    assert np.array_equal(step.mesh.face_vertices, expected.face_vertices) and step.mesh.scheme == expected.scheme
+    assert np.array_equal(step(creature.points[:, 0]), expected.points[:, 0])
+    twice = np.asfortranarray(2 * creature.points, dtype=np.float32)
+    assert np.allclose(step(twice), 2 * expected.points, rtol=1e-6)
+    again = pickle.loads(pickle.dumps(step))
+    assert np.array_equal(again(creature.points), step(creature.points))
+    with pytest.raises(batten.Error) as caught:
+        step(creature.points[:-1])
+    assert caught.value.code == "bad-shape"
+
+
 def test_series_and_bands(creature: batten.Mesh) -> None:
     mesh = batten.subdivide(creature, 2)
     noisy = mesh.with_points(mesh.points + 0.01 * np.random.default_rng(5).standard_normal(mesh.points.shape))
@@ -134,6 +151,28 @@ def test_fit_finds_a_sphere() -> None:
     fit = batten.fit(points, vertices=100, init="sphere")
     assert fit.mesh.vertex_count <= 100 and fit.report.to_surface.max < 0.01
     assert fit.distances.shape == (1500,)
+
+
+def test_fit_takes_its_method_and_creases() -> None:
+    box = batten.Mesh(*_box(12))
+    sharp = batten.fit(box.points, vertices=60, rounds=10)
+    smooth = batten.fit(box.points, vertices=60, creases="none", rounds=10)
+    assert len(sharp.mesh.creases) > 0 and len(smooth.mesh.creases) == 0
+    assert sharp.report.to_surface.rms < smooth.report.to_surface.rms
+    springs = batten.fit(box.points, vertices=98, method="dynamic", init="sphere")
+    assert springs.mesh.vertex_count == 98
+    for options in ({"method": "luck"}, {"creases": "some"}):
+        with pytest.raises(batten.Error, match="is one of"):
+            batten.fit(box.points, **options)  # type: ignore[arg-type]
+
+
+def _box(n: int) -> tuple[np.ndarray, list[list[int]]]:
+    """Points on the faces of a cube, and no faces that matter."""
+    side = np.linspace(-1, 1, n)
+    u, v = (part.ravel() for part in np.meshgrid(side, side))
+    one = np.ones_like(u)
+    faces = [np.roll(np.stack([u, v, sign * one], axis=1), turn, axis=1) for sign in (-1, 1) for turn in range(3)]
+    return np.unique(np.concatenate(faces), axis=0), [[0, 1, 2]]
 
 
 def test_reports_are_records_and_tables(creature: batten.Mesh) -> None:

@@ -109,6 +109,23 @@ def test_points_seeds_and_meshes_start_a_surface() -> None:
     assert np.array_equal(again.mesh.face_vertices, from_seed.mesh.face_vertices)
 
 
+def test_surfaces_together_do_not_meet() -> None:
+    halves = ball()
+    halves[:10] = np.where(halves[:10] == 7, 3, 0)
+    both = batten.segment_together(halves, [3, 7], affine=AFFINE, vertices=100)
+    assert both.first_meetings > 0 and both.rounds > 0 and 0 < both.most_withdrawn < 4
+    left, right = both.surfaces
+    assert left.mesh.points[:, 0].mean() < CENTRE[0] < right.mesh.points[:, 0].mean()
+    shares = left.parts() + right.parts()
+    assert shares.max() < 1 + 1e-5  # no place is inside both
+    assert left.report.dice is not None and left.report.dice > 0.9
+    again = pickle.loads(pickle.dumps(both))
+    assert np.array_equal(again.surfaces[1].mesh.points, right.mesh.points)
+    for labels, said in (([3], "two labels"), ([3, 3], "twice"), ([3, 8], "no voxel has the label")):
+        with pytest.raises(batten.Error, match=said):
+            batten.segment_together(halves, labels, affine=AFFINE)
+
+
 def test_files_and_arrays_are_the_same_volume(tmp_path: pathlib.Path) -> None:
     files()
     path = tmp_path / "ball.nii.gz"

@@ -22,6 +22,7 @@ namespace batten {
 std::vector<SurfaceMeeting> find_meetings(const std::vector<Mesh>& meshes, const Progress& progress) {
   const Mesh all = joined_mesh(meshes);
   std::vector<Index> ends;
+  ends.reserve(meshes.size());
   for (const Mesh& mesh : meshes) ends.push_back((ends.empty() ? 0 : ends.back()) + mesh.face_count());
   const auto mesh_of = [&](Index face) {
     return static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), face) - ends.begin());
