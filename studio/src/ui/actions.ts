@@ -189,9 +189,16 @@ export async function download(app: App, format: string, levels: number): Promis
   });
 }
 
-export async function downloadPicture(app: App, scale: number): Promise<void> {
+/** width: in pixels. */
+export async function downloadPicture(app: App, width: number): Promise<void> {
   const { work } = app;
-  if (work) save(renamed(work.source.name, 'picture', 'png'), await app.stage.png(scale));
+  if (!work) return;
+  await app.inOrder(async () => {
+    const { blob, size } = await app.stage.png(width);
+    const name = renamed(work.source.name, 'picture', 'png');
+    save(name, blob);
+    app.face.say(`Saved ${name}, ${size.width} \u00d7 ${size.height} pixels.`);
+  });
 }
 
 /** The address of this work: its mesh, with what was moved and tagged, and its settings. */

@@ -11,6 +11,7 @@ import { plotMethods, plotRounds } from './plot';
 import { modelUrl } from './gallery';
 import type { Morpher } from './morpher';
 import type { Sculptor } from './sculptor';
+import { counted, extentOf } from './text';
 
 const SCHEME_CHOICES: readonly (readonly [Settings['scheme'], string])[] = [
   ['auto', 'as the mesh asks'],
@@ -68,7 +69,7 @@ export class Panel {
     fileInput: HTMLElement,
   ) {
     place.append(
-      section('Mesh', true, h('div', { class: 'buttons' }, fileInput, this.needs(button('Repair', () => void repairMesh(app)), () => app.work !== null)), this.command((work) => (app.problem ? repairCommand(work) : null))),
+      section('Mesh', true, this.extent(), h('div', { class: 'buttons' }, fileInput, this.needs(button('Repair', () => void repairMesh(app)), () => app.work !== null)), this.command((work) => (app.problem ? repairCommand(work) : null))),
       this.surfaceSection(),
       this.lookSection(),
       this.pointSection(),
@@ -84,6 +85,19 @@ export class Panel {
 
   refresh(): void {
     for (const one of this.refreshers) one();
+  }
+
+  private extent(): HTMLElement {
+    const note = h('p', { class: 'note' });
+    let told: Float64Array | null = null;
+    this.refreshers.push(() => {
+      const { work } = this.app;
+      note.hidden = !work;
+      if (!work || work.points === told) return;
+      told = work.points;
+      note.textContent = extentOf(work);
+    });
+    return note;
   }
 
   /** Enabled only where `can` says so. */
@@ -138,7 +152,7 @@ export class Panel {
     const methods = await app.inOrder(() => app.withEngine<Method[]>((engine) => engine.methods(wishesOf(work)), work));
     if (!methods) return;
     plotMethods(plot, methods);
-    app.face.say(methods.map((method) => (method.failure ? `${method.name}: ${method.failure}` : `${method.name}: ${method.iterations} iterations`)).join('. ') + '.');
+    app.face.say(methods.map((method) => (method.failure ? `${method.name}: ${method.failure}` : `${method.name}: ${method.iterations > 0 ? counted(method.iterations, 'iteration', 'iterations') : 'at once'}`)).join('. ') + '.');
   }
 
   private lookSection(): HTMLElement {
@@ -300,12 +314,13 @@ export class Panel {
   private saveSection(): HTMLElement {
     const { app } = this;
     let surface = false;
+    const width = h('input', { type: 'number', min: 16, max: 16384, step: 1, value: String(2 * app.stage.width) });
     const what = tick('The surface as a fine mesh, not its control mesh', false, (checked) => void (surface = checked));
     const buttons = FORMATS.map((format) => this.needs(button(`Download ${format.toUpperCase()}`, () => void download(app, format, surface ? 2 : -1)), () => this.hasFaces && !app.problem));
-    const picture = this.needs(button('Download PNG', () => void downloadPicture(app, 2)), () => app.work !== null);
+    const picture = this.needs(button('Download PNG', () => void downloadPicture(app, width.valueAsNumber)), () => app.work !== null);
     const link = this.needs(button('Copy a link', () => void copyLink(app)), () => this.hasFaces);
     const kept = h('p', { class: 'note' }, 'The work is kept in this browser until you press Clear. A link holds a small mesh itself; nothing is sent.');
-    return section('Take it away', true, h('div', { class: 'buttons' }, ...buttons, picture, link), what.element, kept);
+    return section('Take it away', true, h('div', { class: 'buttons' }, ...buttons, picture, link), what.element, h('label', { class: 'row' }, h('span', {}, 'PNG, pixels wide'), width), kept);
   }
 
   /** Arrow keys: one step along an axis of the file. */

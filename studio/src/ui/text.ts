@@ -1,6 +1,6 @@
 /** Numbers as people read them. */
 import type { Work } from '../state/work';
-import { faceCount, vertexCount } from '../state/work';
+import { faceCount, isMedial, vertexCount } from '../state/work';
 
 export function grouped(count: number): string {
   return count.toLocaleString('en-US');
@@ -12,6 +12,20 @@ export function counted(count: number, one: string, many: string): string {
 
 export function sizeOf(work: Work): string {
   return `${counted(vertexCount(work), 'vertex', 'vertices')}, ${counted(faceCount(work), 'face', 'faces')}`;
+}
+
+const AXES = ['', 'x', 'y', 'z', '\u2212x', '\u2212y', '\u2212z'];
+
+/** How large a mesh is, in which unit, and which way is up. */
+export function extentOf(work: Work): string {
+  const low = [Infinity, Infinity, Infinity];
+  const high = [-Infinity, -Infinity, -Infinity];
+  work.points.forEach((number, i) => {
+    low[i % 3] = Math.min(low[i % 3] ?? 0, number);
+    high[i % 3] = Math.max(high[i % 3] ?? 0, number);
+  });
+  const unit = isMedial(work) ? 'mm (LPS)' : 'in the file\u2019s unit';
+  return `${low.map((number, i) => short((high[i] ?? 0) - number)).join(' \u00d7 ')} ${unit}, ${AXES[work.up] ?? ''} is up`;
 }
 
 /** Four digits, or two and a power of ten; as the tool writes numbers, so that they can be copied and read aloud. */

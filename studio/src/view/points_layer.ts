@@ -2,14 +2,14 @@
 import { BufferAttribute, BufferGeometry, Color, Points, ShaderMaterial } from 'three';
 
 const VERTEX = `
-  uniform float size; uniform float lift; uniform float picked; attribute float number; varying float vPicked;
+  uniform float size; uniform float scale; uniform float lift; uniform float picked; attribute float number; varying float vPicked;
   void main() {
     vPicked = abs(number - picked) < 0.5 ? 1.0 : 0.0;
     vec4 view = modelViewMatrix * vec4(position, 1.0);
     gl_Position = projectionMatrix * view;
     vec4 nearer = projectionMatrix * vec4(view.xy, view.z + lift, 1.0);
     gl_Position.z = gl_Position.w * nearer.z / nearer.w;
-    gl_PointSize = size * (1.0 + 0.7 * vPicked);
+    gl_PointSize = size * scale * (1.0 + 0.7 * vPicked);
   }`;
 const FRAGMENT = `
   uniform vec3 color; uniform vec3 pickedColor; uniform vec3 rim; varying float vPicked;
@@ -29,7 +29,7 @@ export class PointsLayer {
     vertexShader: VERTEX,
     fragmentShader: FRAGMENT,
     transparent: true,
-    uniforms: { size: { value: 9 }, lift: { value: 0 }, picked: { value: -1 }, color: { value: new Color() }, pickedColor: { value: new Color() }, rim: { value: new Color() } },
+    uniforms: { size: { value: 9 }, scale: { value: 1 }, lift: { value: 0 }, picked: { value: -1 }, color: { value: new Color() }, pickedColor: { value: new Color() }, rim: { value: new Color() } },
   });
 
   constructor() {
@@ -63,6 +63,11 @@ export class PointsLayer {
     geometry.setAttribute('number', new BufferAttribute(Float32Array.from({ length: points.length / 3 }, (_, i) => i), 1));
     this.object.geometry = geometry;
     this.uniform('size').value = size;
+  }
+
+  /** Discs so many times as large, in a picture of more pixels. */
+  scale(factor: number): void {
+    this.uniform('scale').value = factor;
   }
 
   move(vertex: number, to: readonly [number, number, number]): void {

@@ -262,15 +262,28 @@ export class Stage {
     this.touch();
   }
 
-  /** The picture as a PNG file, without its background, at `scale` times its size on the screen. */
-  async png(scale: number): Promise<Blob> {
-    const size = this.renderer.getSize(new THREE.Vector2());
-    this.renderer.setSize(size.x * scale, size.y * scale, false);
-    this.control.resize(size.x * scale, size.y * scale);
+  /** In pixels of the page. */
+  get width(): number {
+    return this.renderer.getSize(new THREE.Vector2()).x;
+  }
+
+  /** The picture as a PNG file, without its background, so many pixels wide: as on the screen, lines and points too. */
+  async png(width: number): Promise<{ blob: Blob; size: { width: number; height: number } }> {
+    const most = this.renderer.getContext().getParameter(this.renderer.getContext().MAX_RENDERBUFFER_SIZE) as number;
+    const shown = this.renderer.getSize(new THREE.Vector2());
+    const height = Math.round((width * shown.y) / shown.x);
+    if (!(width >= 16 && Math.max(width, height) <= most)) throw new Error(`this browser draws pictures 16 to ${most} pixels wide`);
+    const ratio = this.renderer.getPixelRatio();
+    this.renderer.setPixelRatio(1);
+    this.renderer.setSize(width, height, false);
+    this.points.scale(width / shown.x / ratio);
     this.renderer.render(this.scene, this.camera);
+    const { drawingBufferWidth, drawingBufferHeight } = this.renderer.getContext();
     const blob = await new Promise<Blob | null>((resolve) => this.canvas.toBlob(resolve, 'image/png'));
+    this.renderer.setPixelRatio(ratio);
+    this.points.scale(1);
     this.resize();
-    if (!blob) throw new Error('the browser gives no picture of this size');
-    return blob;
+    if (!blob || drawingBufferWidth !== width || drawingBufferHeight !== height) throw new Error('the browser gives no picture of this size');
+    return { blob, size: { width, height } };
   }
 }

@@ -326,6 +326,22 @@ const tasks = {
     assert.ok(!(await page.getByLabel('Spokes', { exact: true }).isVisible()));
   },
 
+  async 'a picture of any size, and what the size is'({ page }) {
+    await openModel(page, 'cube');
+    assert.ok(await page.getByText('2 × 2 × 2 in the file\u2019s unit, y is up').isVisible());
+    const size = async (width) => {
+      await page.getByLabel('PNG, pixels wide').fill(String(width));
+      const bytes = readFileSync(await download(page, 'Download PNG'));
+      return [bytes.readUInt32BE(16), bytes.readUInt32BE(20)];
+    };
+    const [small, large] = [await size(480), await size(2400)];
+    assert.deepEqual([small[0], large[0]], [480, 2400]);
+    assert.ok(Math.abs(large[1] - 5 * small[1]) <= 5);
+    await page.getByLabel('PNG, pixels wide').fill('1000000');
+    await press(page, 'Download PNG');
+    assert.match(await status(page), /draws pictures 16 to \d+ pixels wide/);
+  },
+
   async 'schemes, boundaries, fairness and iterations'({ page }) {
     await openModel(page, 'flag');
     await press(page, 'Interpolate');
