@@ -9,6 +9,7 @@
 #include "batten/dynamics/elastic_motion.h"
 #include "batten/dynamics/pressure.h"
 #include "batten/dynamics/surface_samples.h"
+#include "batten/parallel/threads.h"
 #include "batten/tessellate/surface_mesh.h"
 #include "batten/volume/label_mask.h"
 #include "batten/volume/segment_measures.h"
@@ -223,6 +224,24 @@ TEST(ImageForces, ASmallSphereInflatesUntilTheEdgeHoldsIt) {
   const Scalars radii = surface_of_faces(Topology(moved), Scheme{}, moved, 5000).points.rowwise().norm();
   EXPECT_LT(radii.maxCoeff() - radii.minCoeff(), 0.3);
   EXPECT_NEAR(radii.mean(), kRadius + std::pow(kRadius / kSmall, 2.0) * kPressure / kStiffness, 0.2);
+}
+
+TEST(ImageForces, HaveTheSameBitsForAnyNumberOfThreads) {
+  const Mesh mesh = ball(7.0);
+  const ElasticSurface body = test::body_of(mesh);
+  const auto waving = field_of(waves());
+  const auto search = std::make_shared<const EdgeSearch>(bright_ball(9.0), 1.0);
+  const std::vector<std::shared_ptr<const Force>> forces{
+      std::make_shared<PotentialForce>(body, waving),
+      std::make_shared<RegionForce>(body, waving, RegionMeans{1.0, 0.0}), std::make_shared<EdgeSprings>(body, search),
+      std::make_shared<MaskSprings>(body, waving)};
+  for (const auto& force : forces) {
+    const auto with = [&](int threads) {
+      const ThreadLimit limit(threads);
+      return test::force_of(*force, test::still_at(mesh.points));
+    };
+    EXPECT_EQ(with(1), with(2)) << force->name();
+  }
 }
 
 TEST(ImageForces, AreTheSameOnTheRefinedBody) {

@@ -9,6 +9,7 @@
 #include "batten/mesh/joined_mesh.h"
 #include "batten/mesh/primitives.h"
 #include "batten/mesh/triangulate.h"
+#include "batten/parallel/threads.h"
 #include "batten/volume/inside_volume.h"
 #include "support/errors.h"
 #include "volume/phantoms.h"
@@ -93,6 +94,19 @@ TEST(SegmentTogether, HalvesOfABallShareTheirWall) {
   }
   EXPECT_NEAR(volume, 4.0 / 3.0 * std::numbers::pi * std::pow(kRadius, 3.0), 0.03 * volume);
   EXPECT_LT(result.most_withdrawn, 1.0);
+}
+
+TEST(SegmentTogether, HasTheSameBitsForAnyNumberOfThreads) {
+  const Volume image = test::made_volume(test::centred_grid(25), half);
+  const auto with = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return together(image, {1, 2}, 40);
+  };
+  const TogetherResult one = with(1);
+  const TogetherResult two = with(2);
+  EXPECT_EQ(one.rounds, two.rounds);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_EQ(one.surfaces[i].surface.mesh.points, two.surfaces[i].surface.mesh.points);
 }
 
 TEST(SegmentTogether, FourQuartersMeetNowhere) {
