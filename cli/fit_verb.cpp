@@ -56,7 +56,7 @@ void add_fit(CLI::App& app, FitArguments& arguments, int& status) {
   add_picture(verb, arguments.picture);
   add_range(verb, arguments.picture);
   set_run(verb, arguments.common, status, [&] {
-    require_output(verb, {"--picture", "--report", "--residuals", "--frames"});
+    require_output(verb, {"--picture", "--report", "--residuals", "--frames", "--film"});
     require_with(verb, {"--moments"}, {"--picture"});
     if (arguments.init != kInitAuto) require_alone(verb, "--init", {"--genus", "--bridge"});
     require_creases(arguments);

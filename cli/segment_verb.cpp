@@ -1,4 +1,6 @@
+#include "cli/files.h"
 #include "cli/options.h"
+#include "cli/usage_error.h"
 #include "cli/verbs.h"
 
 namespace batten::cli {
@@ -84,10 +86,12 @@ void add_segment(CLI::App& app, SegmentArguments& arguments, int& status) {
   add_picture(verb, arguments.picture);
   exclude_starts(verb);
   set_run(verb, arguments.common, status, [&] {
-    require_output(verb, {"--picture", "--report", "--overlay", "--inside", "--frames"});
+    require_output(verb, {"--picture", "--report", "--overlay", "--inside", "--frames", "--film"});
     require_with(verb, {"--moments"}, {"--picture"});
     require_with(verb, {"--parts"}, {"--inside"});
     require_with(verb, {"--together"}, {"--label"});
+    if (arguments.together && is_standard_output(arguments.common.output))
+      throw UsageError("--together writes a file for each label: standard output takes one");
     require_with(verb, {"--edges"}, {"--mask"});
     require_with(verb, {"--numbers"}, {"--seed"});
     return run_segment(arguments);

@@ -104,6 +104,7 @@ TEST_F(SegmentTool, WritesItsRoundsAndAFilm) {
   EXPECT_EQ(text_of(last).substr(0, 12), "# SPACE=LPS\n");
   EXPECT_NE(read_mesh(path("rounds/round-000.obj")).points, read_mesh(last).points);
   EXPECT_GT(fs::file_size(path("film.glb")), 10000U);
+  EXPECT_EQ(run("segment ball.nrrd --vertices 100 --film alone.glb").status, 0);
   EXPECT_EQ(run("segment ball.nrrd --moments 2 -o b.obj").status, 2) << "moments of which picture?";
 }
 
@@ -153,6 +154,7 @@ TEST_F(SegmentTool, SurfacesTogetherDoNotMeet) {
       << "the inside has the labels' numbers";
   EXPECT_EQ(run("segment halves.nrrd --label 3,7 --together --seed=1,2,3 -o b.obj").status, 2);
   EXPECT_EQ(run("segment halves.nrrd --together -o b.obj").status, 2);
+  EXPECT_EQ(run("segment halves.nrrd --label 3,7 --together -o - --output-format obj").status, 2) << "two files";
   EXPECT_EQ(run("segment halves.nrrd --label 3 --together -o b.obj").status, 1);
 }
 
