@@ -17,8 +17,11 @@ constexpr double kMostEven = 3e-2;
 /// What draws the surface to the points falls with the distances, as parts of the points' spacing.
 constexpr double kPullOfDistance = 1.0;
 constexpr double kPullFall = 0.8;
-/// A round gains where it takes off so much of what was left.
+/// A round gains where it takes off so much of what was left; with more points than so many, in proportion more: it
+/// takes as much longer.
 constexpr double kGain = 0.02;
+constexpr double kPointsOfGain = 20000.0;
+constexpr double kMostGain = 0.1;
 /// A finer mesh has sixteen times as little energy for the same shape.
 constexpr double kOfRefined = 4.0;
 
@@ -28,7 +31,10 @@ double FitSchedule::wanted_pull(const FitErrors& errors) const {
   return spacing_ > 0.0 ? kPullOfDistance * errors.bulk / spacing_ : 1.0;
 }
 
-FitSchedule::FitSchedule(const FitErrors& errors, double spacing, bool settled) : best_(errors), spacing_(spacing) {
+FitSchedule::FitSchedule(const FitErrors& errors, double spacing, Eigen::Index points, bool settled)
+    : best_(errors),
+      spacing_(spacing),
+      least_gain_(std::clamp(kGain * static_cast<double>(points) / kPointsOfGain, kGain, kMostGain)) {
   step_.pull = settled ? std::min(1.0, wanted_pull(errors)) : 1.0;
   step_.fairness = std::min(kMostFair, std::max(kLeastFairness, kFairnessOfSquares * errors.bulk * errors.bulk));
   choose(errors);
@@ -42,8 +48,11 @@ void FitSchedule::choose(const FitErrors& errors) {
 }
 
 void FitSchedule::note(const FitErrors& errors) {
-  const bool gains = errors.rms < (1.0 - kGain) * best_.rms || errors.bulk < (1.0 - kGain) * best_.bulk ||
-                     errors.max < (1.0 - kGain) * best_.max;
+  // Where rounds are long, of what is left in all: the nearest points alone may gain for long.
+  const double of_bulk = least_gain_ > kGain ? best_.rms : best_.bulk;
+  const double most = 1.0 - least_gain_;
+  const bool gains = errors.rms < most * best_.rms || errors.bulk < best_.bulk - least_gain_ * of_bulk ||
+                     errors.max < most * best_.max;
   idle_ = gains ? 0 : idle_ + 1;
   best_.rms = std::min(best_.rms, errors.rms);
   best_.bulk = std::min(best_.bulk, errors.bulk);

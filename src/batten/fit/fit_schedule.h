@@ -1,5 +1,7 @@
 /// \file How a fit goes on from round to round: how fair the surface has to be, and when rounds gain nothing.
 #pragma once
+#include <Eigen/Core>
+
 #include "batten/fit/fit_errors.h"
 #include "batten/fit/surface_fitter.h"
 
@@ -9,9 +11,9 @@ namespace batten {
 /// smooth and exact data set it free. It falls by no more than so much a round.
 class FitSchedule {
  public:
-  /// Before the first round. spacing: of the points, as a share of the diameter. settled: the surface is near the
+  /// Before the first round. spacing: of so many points, as a share of the diameter. settled: the surface is near the
   /// points already and is drawn to them no more than its distances ask for.
-  FitSchedule(const FitErrors& errors, double spacing, bool settled = false);
+  FitSchedule(const FitErrors& errors, double spacing, Eigen::Index points, bool settled = false);
 
   const FitStep& step() const { return step_; }
   /// After a round.
@@ -31,6 +33,7 @@ class FitSchedule {
   FitStep step_;
   FitErrors best_;
   double spacing_;
+  double least_gain_;
   int idle_ = 0;
 };
 

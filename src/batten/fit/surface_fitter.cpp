@@ -380,6 +380,12 @@ Index SurfaceFitter::unsound_faces() const {
   return static_cast<Index>(std::count(flags.begin(), flags.end(), 1));
 }
 
+Index SurfaceFitter::unsound_faces(const Values& control) const {
+  if (control == parts_->control) return unsound_faces();
+  const Buffer<std::uint8_t> flags = parts_->level->guard.unsound(control, Soundness::Whole);
+  return static_cast<Index>(std::count(flags.begin(), flags.end(), 1));
+}
+
 Index SurfaceFitter::hold_unsound() {
   FitLevel& level = *parts_->level;
   const Buffer<std::uint8_t>& flags = parts_->unsound_flags();

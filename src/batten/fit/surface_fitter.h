@@ -80,6 +80,8 @@ class SurfaceFitter {
 
   /// Faces of the control mesh whose surface folds over or passes through another's.
   Index unsound_faces() const;
+  /// The same where the control points were these, V-by-3.
+  Index unsound_faces(const Values& control) const;
   /// Holds the control points around these faces, so that relax() moves them; returns how many faces there are.
   Index hold_unsound();
 

@@ -76,10 +76,14 @@ class TriangleTree {
   std::ptrdiff_t count() const { return static_cast<std::ptrdiff_t>(triangles_.size()); }
   const BoxedTriangle& triangle(std::ptrdiff_t t) const { return triangles_[t]; }
 
-  /// Calls visit(other) for the triangles after t in the order whose boxes meet t's.
+  /// Calls visit(t, other) for the triangles of group g, those from kFanout * g on, and the triangles after each in the
+  /// order whose boxes meet. The group goes down the tree as one.
   template <typename Visit>
-  void behind(std::ptrdiff_t t, const Visit& visit) const {
-    const Box& own = levels_[0][t];
+  void behind(std::ptrdiff_t g, const Visit& visit) const {
+    const std::ptrdiff_t first = g * kFanout;
+    const std::ptrdiff_t end = std::min(first + kFanout, count());
+    Box own = Box::empty();
+    for (std::ptrdiff_t t = first; t < end; ++t) own.add(levels_[0][t]);
     struct Node {
       int level;
       std::ptrdiff_t place;
@@ -90,16 +94,21 @@ class TriangleTree {
     while (used > 0) {
       const Node node = stack[--used];
       if (node.level == 0) {
-        if (node.place > t) visit(node.place);
+        for (std::ptrdiff_t t = first; t < std::min(end, node.place); ++t) {
+          if (levels_[0][t].meets(levels_[0][node.place])) visit(t, node.place);
+        }
         continue;
       }
       const Buffer<Box>& below = levels_[node.level - 1];
-      const auto end = std::min<std::ptrdiff_t>((node.place + 1) * kFanout, static_cast<std::ptrdiff_t>(below.size()));
-      for (std::ptrdiff_t i = node.place * kFanout; i < end; ++i) {
-        if (last_below(node.level - 1, i) > t && below[i].meets(own)) stack[used++] = {node.level - 1, i};
+      const auto last = std::min<std::ptrdiff_t>((node.place + 1) * kFanout, static_cast<std::ptrdiff_t>(below.size()));
+      for (std::ptrdiff_t i = node.place * kFanout; i < last; ++i) {
+        if (last_below(node.level - 1, i) > first && below[i].meets(own)) stack[used++] = {node.level - 1, i};
       }
     }
   }
+
+  /// How many groups behind() knows.
+  std::ptrdiff_t groups() const { return (count() + kFanout - 1) / kFanout; }
 
  private:
   Eigen::RowVector3d at(Index v) const { return points_.row(v); }
@@ -216,12 +225,12 @@ SelfIntersections find_self_intersections(const Topology& topology, ConstValuesR
   report_progress(progress, 0.0);
   const TriangleTree tree(topology, points);
   const PairTest test(points);
-  constexpr std::ptrdiff_t kBlock = 256;
+  constexpr std::ptrdiff_t kBlock = 32;
   const auto search = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     SelfIntersections found;
-    for (std::ptrdiff_t t = begin; t < end; ++t) {
-      const BoxedTriangle& own = tree.triangle(t);
-      tree.behind(t, [&](std::ptrdiff_t other) {
+    for (std::ptrdiff_t g = begin; g < end; ++g) {
+      tree.behind(g, [&](std::ptrdiff_t t, std::ptrdiff_t other) {
+        const BoxedTriangle& own = tree.triangle(t);
         const BoxedTriangle& second = tree.triangle(other);
         if (second.face == own.face || !test.cross(own.vertices, second.vertices)) return;
         ++found.count;
@@ -238,7 +247,7 @@ SelfIntersections find_self_intersections(const Topology& topology, ConstValuesR
     return a;
   };
   SelfIntersections all =
-      parallel_reduce(tree.count(), SelfIntersections(), search, combine, kBlock, progress_within(progress, 0.2, 1.0));
+      parallel_reduce(tree.groups(), SelfIntersections(), search, combine, kBlock, progress_within(progress, 0.2, 1.0));
   return combine(SelfIntersections(), all);
 }
 
