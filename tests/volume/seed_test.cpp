@@ -64,11 +64,11 @@ TEST(Seed, SlicesThreeTimesAsThickGiveTheShapeToo) {
   grid.axes = Eigen::Vector3d(1.0, 1.0, 3.0).asDiagonal();
   grid.origin = Place(-26.5, -26.5, -25.5);
   for (const Phantom& phantom : kPhantoms) {
-    // The blur across slices is as wide as a third of the shape: docs/segment.md says how far this is from 1 mm.
+    // The blur across slices is as wide as a third of the shape.
     const Truth truth = compared(from_seed(imaged(phantom, grid, 0.05), phantom.seed), phantom);
-    EXPECT_GT(truth.dice, 0.95) << phantom.name;
-    EXPECT_LT(truth.distance, 0.35) << phantom.name;
-    EXPECT_NEAR(truth.volume, 1.0, 0.06) << phantom.name;
+    EXPECT_GT(truth.dice, 0.98) << phantom.name;
+    EXPECT_LT(truth.distance, 0.15 * std::cbrt(3.0)) << phantom.name;
+    EXPECT_NEAR(truth.volume, 1.0, 0.01) << phantom.name;
   }
 }
 

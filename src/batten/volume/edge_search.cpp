@@ -39,19 +39,6 @@ Peak best_peak(const std::vector<double>& values, double sign) {
   return peak;
 }
 
-/// The mean of both numbers so many steps from the peak as a share of the peak's; 0 where the line ends before.
-double fall_beside(const std::vector<double>& values, const Peak& peak, double steps) {
-  const double middle = 0.5 * (static_cast<double>(values.size()) - 1.0) + peak.at;
-  const double last = static_cast<double>(values.size()) - 1.0;
-  const auto at = [&](double place) {
-    const auto low = static_cast<std::size_t>(std::min(place, last - 1.0));
-    const double share = place - static_cast<double>(low);
-    return (1.0 - share) * values[low] + share * values[low + 1];
-  };
-  if (middle - steps < 0.0 || middle + steps > last) return 0.0;
-  return std::max(0.0, 0.5 * (at(middle - steps) + at(middle + steps)) / at(middle));
-}
-
 /// The three weights of a quadratic B-spline and the first of their voxels.
 struct SplineWeights {
   Index first = 0;
@@ -91,7 +78,6 @@ double EdgeSearch::derivative(const Eigen::Vector3d& place, const Eigen::Vector3
 EdgeSearch::EdgeSearch(const Volume& image, double width)
     : slope_(gradient(image, 2.0 / width)),
       to_index_(image.grid.axes.inverse()),
-      width_(width),
       step_(0.4 * std::min({image.grid.spacing(0), image.grid.spacing(1), image.grid.spacing(2)})) {
   constexpr float kRounding = 1e-5F;  // of the image's numbers: weaker derivatives are those of no edge
   float most = 0.0F;
@@ -135,12 +121,11 @@ FoundEdges EdgeSearch::find(const Points& points, const Points& normals, double 
     strengths[i] = peaks[i].strength;
   }
   const double strong = count > 0 ? quantile(strengths, kStrong) : 0.0;
-  FoundEdges found{points, Scalars::Zero(points.rows()), Scalars::Zero(points.rows())};
+  FoundEdges found{points, Scalars::Zero(points.rows())};
   for (std::size_t i = 0; i < count; ++i) {
     if (!(peaks[i].strength > least_)) continue;
     const auto row = static_cast<Eigen::Index>(i);
     found.places.row(row) += peaks[i].at * step_ * normals.row(row);
-    found.falls[row] = fall_beside(profiles[i], peaks[i], kBeside * width_ / step_);
     found.weights[row] = std::pow(std::min(1.0, peaks[i].strength / strong), 2.0);
   }
   return found;

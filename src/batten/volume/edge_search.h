@@ -8,15 +8,11 @@ namespace batten {
 struct FoundEdges {
   Points places;    ///< N-by-3, in the world; the place itself where none was found
   Scalars weights;  ///< 0 to 1: 0 where none was found
-  Scalars falls;    ///< the derivative beside the edge as a share of that on it; 0 where none was found or seen
 };
 
 /// The derivatives of a smoothed image.
 class EdgeSearch {
  public:
-  /// FoundEdges::falls are means over both places this far from the edge along the normal, in widths.
-  static constexpr double kBeside = 1.4;
-
   /// width: of the smoothing, mm: alpha is 2 / width. Throws what gradient() throws.
   EdgeSearch(const Volume& image, double width);
 
@@ -34,7 +30,6 @@ class EdgeSearch {
 
   Gradient slope_;
   Eigen::Matrix3d to_index_;
-  double width_;  ///< of the smoothing, mm
   double step_;   ///< mm
   double least_;  ///< derivatives up to this are rounding
 };

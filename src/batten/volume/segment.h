@@ -49,18 +49,22 @@ struct ImageFitOptions {
   double first_smoothing = 3.0;  ///< so many times as much at first
   double reach = 3.0;            ///< how far edges are searched along the normal in the end, voxels
   double first_reach = 2.0;      ///< so many times as far at first
-  double point_weight = 30.0;    ///< of all points together beside all edges together
+  double point_weight = 300.0;   ///< of all points together beside all edges together
   double fairness = 0.1;         ///< in the end (FitStep)
   int rounds = 24;
-  bool leave_blur = true;  ///< moves the surface off the edges to where they were before the blur (volume/edge_blur.h)
-  FrameWatcher watch;      ///< is shown the start and the surface after each step
+  /// Moves the surface off the edges to where its own image, blurred, is most like the one that is there
+  /// (volume/image_model.h); not with points.
+  bool leave_blur = true;
+  FrameWatcher watch;  ///< is shown the start and the surface after each step
 };
 
 /// Draws a surface to the edges of an image and to points. In each round every place of a grid on the surface looks
 /// along its normal for the strongest edge (volume/edge_search.h); edges and points draw the surface as
 /// fit/surface_fitter.h does, and steps are taken back as segment_mask() does; the smoothing of the image, the reach
-/// and the fairness fall from round to round. The points stay more exact the larger their weight. points: N-by-3, in
-/// the world, or without rows. Throws Error: BadArgument, BadShape, NotFinite, Cancelled.
+/// and the fairness fall from round to round. Without points, the places go in 20 more rounds where a model of the
+/// blurred image, whose blur is learnt, asks for; fairness then grows with the noise. The points stay more exact the
+/// larger their weight. points: N-by-3, in the world, or without rows. Throws Error: BadArgument, BadShape, NotFinite,
+/// Cancelled.
 Segmentation segment_image(const Segmentation& start, const Volume& image, const Points& points,
                            const ImageFitOptions& options = {}, const Progress& progress = {});
 

@@ -6,10 +6,12 @@
 
 #include "batten/dynamics/surface_samples.h"
 #include "batten/error.h"
-#include "batten/volume/edge_blur.h"
+#include "batten/mesh/triangulate.h"
 #include "batten/volume/edge_search.h"
 #include "batten/volume/guarded_steps.h"
+#include "batten/volume/image_model.h"
 #include "batten/volume/segment.h"
+#include "batten/volume/segment_measures.h"
 
 namespace batten {
 
@@ -86,23 +88,29 @@ class ImageRounds {
 
   /// The image is smoothed anew a few times only.
   void smooth(double early) {
-    width_ = options_.smoothing * voxel_ * std::pow(options_.first_smoothing, early);
-    search_.emplace(near_, width_);
+    search_.emplace(near_, options_.smoothing * voxel_ * std::pow(options_.first_smoothing, early));
   }
 
-  /// From the edges that the surface lies on to where they were before the blur. What blur does is known from the
-  /// bends of the surface on the edges; bends of the moved surface would grow from round to round.
-  void leave_blur() {
-    constexpr int kSteps = 4;
-    FoundEdges edges = find(0.0);
-    std::vector<PointCurvature> curvatures;
-    for (const Jet& jet : jets_) curvatures.push_back(curvature_of(jet));
-    const Eigen::Matrix3d covariance = edge_covariance(near_.grid, width_, edges, curvatures);
-    for (Eigen::Index i = 0; i < edges.places.rows(); ++i) {
-      if (edges.weights[i] > 0.0) edges.places.row(i) += edge_shift(curvatures[i], covariance) * places_.normals.row(i);
+  /// Off the edges to where the blurred image that the surface would give is most like the one there is. Fairness makes
+  /// a round body smaller, by moves that the image asks for in vain: these are asked for twice, and once more.
+  void fit_model(const Progress& progress) {
+    constexpr int kRounds = 20;
+    constexpr int kRoundsOfHold = 6;
+    constexpr double kFaces = 6000;
+    const FoundEdges edges = find(0.0);
+    ImageModel model(near_);
+    Scalars held = Scalars::Zero(static_cast<Eigen::Index>(asked_.size()));
+    for (int round = 0; round < kRounds; ++round) {
+      report_progress(progress, static_cast<double>(round) / kRounds);
+      look();
+      const Mesh control = frame_mesh({fitter_.topology(), fitter_.scheme(), fitter_.control()});
+      model.set_surface(triangulated(surface_of_faces(fitter_.topology(), fitter_.scheme(), control, kFaces)));
+      const ModelMoves asked = model.moves(places_.points, places_.normals);
+      if (round > 0) model.learn_blur();
+      if (round > 0 && round % kRoundsOfHold == 0) held += asked.weights.cwiseProduct(asked.moves);
+      set_targets(fitter_, places_, mixed(edges, asked, held), points_, options_.point_weight);
+      step(options_.fairness * fairness_of_noise(model.noise()));
     }
-    set_targets(fitter_, places_, edges, points_, options_.point_weight);
-    for (int i = 0; i < kSteps; ++i) step(options_.fairness);
   }
 
   const SurfaceFitter& fitter() const { return fitter_; }
@@ -114,10 +122,37 @@ class ImageRounds {
   static constexpr int kHalvings = 3;
   static constexpr double kPointsFirst = 30.0;  // the points alone make the shape before edges count
 
-  FoundEdges find(double early) {
+  /// So much more than at the edges: the model sees through noise, which asks for moves of its own.
+  static double fairness_of_noise(double noise) {
+    constexpr double kNone = 2.0;
+    constexpr double kOfNoise = 40.0;
+    constexpr double kMost = 10.0;
+    return std::min(kMost, kNone + kOfNoise * noise);
+  }
+
+  /// Where the model explains the image, what it asks for; elsewhere, as between two other parts, the edges.
+  FoundEdges mixed(const FoundEdges& edges, const ModelMoves& asked, const Scalars& held) const {
+    FoundEdges targets = edges;
+    for (Eigen::Index row = 0; row < held.size(); ++row) {
+      const double trust = asked.weights[row] * asked.weights[row];
+      const double other = edges.weights[row] * std::pow(1.0 - asked.weights[row], 2.0);
+      const Eigen::RowVector3d normal = places_.normals.row(row);
+      const double to_edge = (edges.places.row(row) - places_.points.row(row)).dot(normal);
+      targets.weights[row] = trust + other;
+      const double move = trust * (asked.moves[row] + held[row]) + other * to_edge;
+      targets.places.row(row) = places_.points.row(row) + (trust + other > 0.0 ? move / (trust + other) : 0.0) * normal;
+    }
+    return targets;
+  }
+
+  void look() {
     surface_.set_control(fitter_.control());
     surface_.jets(asked_, jets_);
     places_ = surface_places(jets_);
+  }
+
+  FoundEdges find(double early) {
+    look();
     return search_->find(places_.points, places_.normals,
                          options_.reach * voxel_ * std::pow(options_.first_reach, early));
   }
@@ -142,7 +177,6 @@ class ImageRounds {
   GuardedSteps steps_;
   LimitSurface surface_;
   std::optional<EdgeSearch> search_;
-  double width_ = 0.0;
 };
 
 }  // namespace
@@ -151,14 +185,17 @@ Segmentation segment_image(const Segmentation& start, const Volume& image, const
                            const ImageFitOptions& options, const Progress& progress) {
   require_options(options);
   ImageRounds rounds(start, image, points, options);
+  // Points say where the border is, whatever the image does there.
+  const bool modelled = options.leave_blur && points.rows() == 0;
+  const Progress edges = progress_within(progress, 0.0, modelled ? 0.5 : 1.0);
   for (int round = 0; round < options.rounds; ++round) {
-    report_progress(progress, static_cast<double>(round) / options.rounds);
+    report_progress(edges, static_cast<double>(round) / options.rounds);
     const double done = options.rounds > 1 ? static_cast<double>(round) / (options.rounds - 1) : 1.0;
     const double early = std::max(0.0, 1.0 - 1.5 * done);
     if (round % 6 == 0) rounds.smooth(early);
     rounds.take(early);
   }
-  if (options.leave_blur) rounds.leave_blur();
+  if (modelled) rounds.fit_model(progress_within(progress, 0.5, 1.0));
   Segmentation result = start;
   result.rounds = rounds.steps().taken();
   result.cut_steps = rounds.steps().cut();

@@ -76,11 +76,13 @@ FrameWatcher without_repeats(const FrameWatcher& watch) {
 /// What draws a surface to edges, where nothing is said: seeds and meshes lie near them already.
 ImageFitOptions image_options(const SegmentRequest& request) {
   constexpr double kNearFairness = 0.05;
+  constexpr int kNearRounds = 12;
   ImageFitOptions options = request.image.value_or(ImageFitOptions{});
   if (!request.image && (request.seed || request.start)) {
     options.fairness = kNearFairness;
     options.first_smoothing = 1.0;
     options.first_reach = 1.0;
+    options.rounds = kNearRounds;
   }
   return options;
 }
