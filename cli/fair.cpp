@@ -37,7 +37,8 @@ FairOptions options_of(const FairArguments& arguments, double diagonal) {
 
 /// "46.2, of the plain surface 427 (-89 %)"
 std::string energy_text(const FairReport& report) {
-  if (!(report.plain_energy > 0.0)) return fmt::format("{:.4g}", report.energy);
+  if (!(report.plain_energy > 0.0) || !std::isfinite(report.energy / report.plain_energy))
+    return fmt::format("{:.4g}", report.energy);
   return fmt::format("{:.4g}, of the plain surface {:.4g} ({:+.0f} %)", report.energy, report.plain_energy,
                      100.0 * (report.energy / report.plain_energy - 1.0));
 }
@@ -51,8 +52,8 @@ void print_table(const Topology& topology, const Scheme& scheme, const FairOptio
   table.add("method", "fair, " + method_text(report.solve));
   table.add(energy_word(options.energy), energy_text(report));
   if (report.kept_plain) table.add("", "the plain surface has the least, and is kept");
-  table.add("max error", fmt::format("{:.3g} at vertex {} ({:.3g} of the diagonal)", report.max_error,
-                                     report.worst_vertex, report.max_error / report.diagonal));
+  table.add("max error", fmt::format("{:.3g} at vertex {} ({})", report.max_error, report.worst_vertex,
+                                     share_text(report.max_error, report.diagonal)));
   table.add("rms error", fmt::format("{:.3g}", report.rms_error));
   add_value_rows(result.attributes, table);
   if (report.normal_count > 0) {

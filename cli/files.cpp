@@ -127,15 +127,18 @@ void check_numbered_files(const CLI::App& verb, const std::string& output, int c
 
 void require_output(const CLI::App& verb, const std::vector<std::string>& instead) {
   if (!given_files(verb, kOutputType).empty()) return;
-  std::string names;
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  };
   for (const CLI::Option* option : verb.get_options()) {
-    if (option->get_type_name() == kOutputType) names += (names.empty() ? "" : ", ") + option->get_name();
+    if (option->get_type_name() == kOutputType) add(option->get_name());
   }
   for (const std::string& name : instead) {
     if (verb.count(name) > 0) return;
-    names += ", " + name;
+    add(name);
   }
-  throw UsageError(verb.get_name() + ": nothing would be written; give one of " + names);
+  throw UsageError(verb.get_name() + ": nothing would be written; give one of " + CLI::detail::join(names, ", "));
 }
 
 }  // namespace batten::cli

@@ -24,6 +24,11 @@ FitOptions options_of(const FitArguments& arguments, const Mesh& points, Job& jo
   if (arguments.init == kInitSphere) options.start = FitStart::Sphere;
   if (arguments.init != kInitAuto && arguments.init != kInitSphere) {
     options.initial = read_file(arguments.init, "", arguments.common.quiet, &job.notes);
+    try {
+      Topology(*options.initial);
+    } catch (const Error& error) {
+      throw Error(ErrorCode::BadArgument, arguments.init + ": " + error.what() + " (or let batten repair do it)");
+    }
     options.scheme = choose_scheme(*options.initial);
   }
   if (arguments.common.scheme) options.scheme.kind = *arguments.common.scheme;
@@ -110,12 +115,16 @@ nlohmann::ordered_json report_json(const FitResult& result) {
           {"peak_memory_bytes", peak_memory_bytes()}};
 }
 
-void print_table(const FitResult& result, const std::string& written, const std::string& frames, const Job& job) {
+void print_table(const FitResult& result, const std::optional<Index>& vertices, const std::string& written,
+                 const std::string& frames, const Job& job) {
   const FitReport& report = result.report;
   Table table;
   table.add("points", count_of(result.distances.size(), "point", "points"));
   if (report.outliers > 0) table.add("", count_of(report.outliers, "outlier", "outliers") + " left out");
   table.add("surface", mesh_text(result.topology));
+  if (vertices && result.topology.vertex_count() > *vertices)
+    table.add("", fmt::format("no mesh to start from has as few as the {} asked",
+                              count_of(*vertices, "control point", "control points")));
   table.add("scheme", scheme_text(result.scheme));
   const CreaseCounts creases = count_creases(result.topology);
   if (creases.edges > 0)
@@ -127,7 +136,7 @@ void print_table(const FitResult& result, const std::string& written, const std:
   table.add("", fmt::format("% are of the enclosing sphere's diameter, {:.4g}; points are {:.4g} apart",
                             report.diameter, report.spacing));
   if (report.unsound > 0)
-    table.add("unsound", count_of(report.unsound, "face", "faces") + " fold over or pass through others");
+    table.add("unsound", count_of(report.unsound, "face folds", "faces fold") + " over or pass through others");
   table.add("rounds", fmt::format("{}; {}", report.rounds.size(), end_text(report)));
   if (!written.empty()) table.add("written", written);
   if (!frames.empty()) table.add("frames", frames);
@@ -192,7 +201,7 @@ int run_fit(const FitArguments& arguments) {
     draw_fit(arguments, result, points, job);
   }
   const std::string frames = evolution.write(arguments.picture, markers, radius, job);
-  print_table(result, written, frames, job);
+  print_table(result, arguments.vertices, written, frames, job);
   job.report(report_json(result));
   return 0;
 }

@@ -19,11 +19,9 @@ void require_creases(const FitArguments& arguments) {
 
 void add_fit(CLI::App& app, FitArguments& arguments, int& status) {
   CLI::App& verb = *app.add_subcommand("fit", "from points to a small, editable subdivision surface");
-  add_input_file(verb, "POINTS", arguments.common.input,
-                 "scan or fine mesh: .xyz .ply .obj .off .stl .glb .gltf, also as .gz, or - for standard input")
-      ->required();
-  add_common(verb, arguments.common);
+  add_input(verb, arguments.common, "POINTS", "scan or fine mesh");
   add_output(verb, arguments.common);
+  add_repair_flag(verb, arguments.common);
   verb.add_option("--init", arguments.init,
                   "start from a mesh of the right genus that is found, from a sphere, or from this control mesh, whose "
                   "faces and vertex order stay; auto")

@@ -39,6 +39,34 @@ int report_usage(const CLI::App& app, const std::string& text) {
   return 2;
 }
 
+/// What the user can do about an error by an option of this verb, or else by another verb.
+std::string hint(const CLI::App& verb, ErrorCode code) {
+  const auto has = [&](const char* option) { return verb.get_option_no_throw(option) != nullptr; };
+  switch (code) {
+    case ErrorCode::DegenerateFace:
+    case ErrorCode::RepeatedFace:
+    case ErrorCode::NonManifoldEdge:
+    case ErrorCode::NonManifoldVertex:
+    case ErrorCode::InconsistentFaces:
+    case ErrorCode::NonOrientable:
+      return has("--repair") ? " (or let --repair do it)" : " (or let batten repair do it)";
+    case ErrorCode::NotTriangles:
+      return has("--triangulate") ? " (--triangulate splits all faces)"
+                                  : " (batten convert --triangulate splits all faces)";
+    default:
+      return "";
+  }
+}
+
+int report_error(const CLI::App& app, const Error& error) {
+  if (error.code() == ErrorCode::Cancelled) {
+    std::fprintf(stderr, "batten: interrupted; unfinished files are as they were\n");
+  } else {
+    std::fprintf(stderr, "batten: %s%s\n", error.what(), hint(*app.get_subcommands().front(), error.code()).c_str());
+  }
+  return 1;
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Batten: smooth subdivision surfaces through data.", "batten");
   app.set_version_flag("--version", std::string("batten ") + BATTEN_VERSION);
@@ -78,25 +106,10 @@ int run(int argc, char** argv) {
     return report_usage(app, usage_text(app, error));
   } catch (const UsageError& error) {
     return report_usage(app, error.what());
+  } catch (const Error& error) {
+    return report_error(app, error);
   }
   return status;
-}
-
-/// What the user can do about an error by an option of the tool.
-const char* hint(ErrorCode code) {
-  switch (code) {
-    case ErrorCode::DegenerateFace:
-    case ErrorCode::RepeatedFace:
-    case ErrorCode::NonManifoldEdge:
-    case ErrorCode::NonManifoldVertex:
-    case ErrorCode::InconsistentFaces:
-    case ErrorCode::NonOrientable:
-      return " (or let --repair do it)";
-    case ErrorCode::NotTriangles:
-      return " (--triangulate splits all faces)";
-    default:
-      return "";
-  }
 }
 
 }  // namespace
@@ -109,12 +122,6 @@ int main(int argc, char** argv) {
     // The text may still stand in the buffer; this write meets a closed pipe or a full disk.
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
     std::fprintf(stderr, "batten: standard output: cannot be written: %s\n", std::strerror(errno));
-  } catch (const batten::Error& error) {
-    if (error.code() == batten::ErrorCode::Cancelled) {
-      std::fprintf(stderr, "batten: interrupted; unfinished files are as they were\n");
-    } else {
-      std::fprintf(stderr, "batten: %s%s\n", error.what(), batten::cli::hint(error.code()));
-    }
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "batten: out of memory; take a smaller mesh or fewer levels\n");
   } catch (const std::exception& error) {

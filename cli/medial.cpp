@@ -212,6 +212,7 @@ int run_medial(const MedialArguments& arguments) {
   MedialModel model;
   const auto read = [&] { model = read_medial(common.input, ProgressBar("reading", common.quiet).callback()); };
   Job job("medial", common, read, UpAxis::Z);
+  if (!arguments.model.empty()) require_medial_format(arguments.model, model);
   MedialSurface made =
       medial_surface(model, medial_interpolation(), ProgressBar("interpolating", common.quiet).callback());
   MedialRun run{arguments, model, made, check_spokes(made.boundary), made.surface.topology, {}};

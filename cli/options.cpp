@@ -59,6 +59,8 @@ std::string read_view(const std::string& words, PictureArguments& picture) {
   if (!read || first != ',' || second != ',' || !(text >> std::ws).eof())
     return "'" + words +
            "' is neither a view (front, back, left, right, top, bottom, iso) nor a direction like 1,-2,0.5";
+  if (std::all_of(direction.begin(), direction.end(), [](double part) { return part == 0.0; }))
+    return "'" + words + "' is no direction; give one like 1,-2,0.5";
   picture.direction = direction;
   return "";
 }
@@ -111,9 +113,9 @@ void add_repair_flag(CLI::App& verb, CommonArguments& common) {
   verb.add_flag("--repair", common.repair, "repair the mesh first and list what was changed (see batten repair)");
 }
 
-void add_input(CLI::App& verb, CommonArguments& common, const std::string& name) {
+void add_input(CLI::App& verb, CommonArguments& common, const std::string& name, const std::string& what) {
   add_input_file(verb, name, common.input,
-                 "mesh file: .obj .ply .off .stl .xyz .glb .gltf, also as .gz, or - for standard input")
+                 what + ": .obj .ply .off .stl .xyz .glb .gltf, also as .gz, or - for standard input")
       ->required();
   verb.add_option("--input-format", common.input_format, "the input's type where its name does not tell")
       ->option_text("obj|ply|off|stl|xyz|glb|gltf");

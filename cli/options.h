@@ -37,8 +37,10 @@ void add_choice(CLI::App& verb, const std::string& name, Target& target, const N
 }
 
 void add_repair_flag(CLI::App& verb, CommonArguments& common);
-/// Adds the positional argument for the input file, under the name that the help shows.
-void add_input(CLI::App& verb, CommonArguments& common, const std::string& name = "INPUT");
+/// Adds the positional argument for the input file, under the name that the help shows, and what all inputs have;
+/// `what` says what the file is.
+void add_input(CLI::App& verb, CommonArguments& common, const std::string& name = "INPUT",
+               const std::string& what = "mesh file");
 /// Adds what every verb has besides its input: --threads, --quiet, --report.
 void add_common(CLI::App& verb, CommonArguments& common);
 void add_output(CLI::App& verb, CommonArguments& common);

@@ -44,7 +44,7 @@ nlohmann::ordered_json report_json(const SegmentArguments& arguments, const Segm
 /// What grew from the seed, and whether it leaks.
 std::string region_text(const SeedRegion& region) {
   constexpr double kOpen = 0.06;
-  std::string text = fmt::format("the region has {:.1f} mm^3", region.volume);
+  std::string text = "the region has " + fixed_text(region.volume, 1) + " mm^3";
   if (region.open > kOpen)
     text += fmt::format("; {:.0f} % of its border has no edge: it may leak", 100.0 * region.open);
   return text;
@@ -62,13 +62,13 @@ Table table_of(const SegmentRequest& request, const SegmentResult& found, const 
   if (result.dropped_parts > 0)
     table.add("", count_of(result.dropped_parts, "speck", "specks") + " of a few voxels left out");
   const std::string of_mask =
-      found.agreement ? fmt::format("; the mask has {:.1f} mm^3", found.agreement->mask_volume) : "";
-  table.add("volume",
-            fmt::format("{:.1f} mm^3, area {:.1f} mm^2{}", found.measures.volume, found.measures.area, of_mask));
+      found.agreement ? "; the mask has " + fixed_text(found.agreement->mask_volume, 1) + " mm^3" : "";
+  table.add("volume", fmt::format("{} mm^3, area {} mm^2{}", fixed_text(found.measures.volume, 1),
+                                  fixed_text(found.measures.area, 1), of_mask));
   if (found.agreement)
-    table.add("agreement",
-              fmt::format("Dice {:.4f}; mean distance {:.3f} mm to the surface, {:.3f} mm to the mask's border",
-                          found.agreement->dice, found.agreement->to_surface.mean, found.agreement->to_border.mean));
+    table.add("agreement", fmt::format("Dice {:.4f}; mean distance {} mm to the surface, {} mm to the mask's border",
+                                       found.agreement->dice, fixed_text(found.agreement->to_surface.mean, 3),
+                                       fixed_text(found.agreement->to_border.mean, 3)));
   table.add("edges", fmt::format("{:.1f} % of the best within two voxels", 100.0 * found.edges.share()));
   if (found.measures.self_intersections > 0)
     table.add("", count_of(found.measures.self_intersections, "pair", "pairs") + " of triangles meet");

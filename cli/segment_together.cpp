@@ -82,9 +82,10 @@ Table table_of(const SegmentArguments& arguments, const TogetherResult& result, 
   for (std::size_t i = 0; i < result.surfaces.size(); ++i) {
     const SegmentResult& found = result.surfaces[i];
     table.add("label " + label_text(arguments.labels[i]),
-              fmt::format("{}; genus {}; {:.1f} mm^3, area {:.1f} mm^2; Dice {:.4f}, mean distance {:.3f} mm",
-                          mesh_text(found.surface.topology), found.surface.genus, found.measures.volume,
-                          found.measures.area, found.agreement->dice, found.agreement->to_surface.mean));
+              fmt::format("{}; genus {}; {} mm^3, area {} mm^2; Dice {:.4f}, mean distance {} mm",
+                          mesh_text(found.surface.topology), found.surface.genus, fixed_text(found.measures.volume, 1),
+                          fixed_text(found.measures.area, 1), found.agreement->dice,
+                          fixed_text(found.agreement->to_surface.mean, 3)));
     if (found.measures.self_intersections > 0)
       table.add("", count_of(found.measures.self_intersections, "pair", "pairs") + " of its triangles meet");
   }

@@ -14,6 +14,7 @@ void add_starts(CLI::App& verb, SegmentArguments& arguments) {
       ->option_text("VOLUME");
   verb.add_option("--label", arguments.labels, "the label, or several as one: 71,72; all numbers but 0, if not given")
       ->delimiter(',')
+      ->check(number_in(-1e9, 1e9))
       ->option_text("N,...");
   verb.add_flag("--together", arguments.together,
                 "a surface for each --label, which do not meet each other, in files of their own: -o organ.obj writes "
@@ -94,6 +95,9 @@ void add_segment(CLI::App& app, SegmentArguments& arguments, int& status) {
       throw UsageError("--together writes a file for each label: standard output takes one");
     require_with(verb, {"--edges"}, {"--mask"});
     require_with(verb, {"--numbers"}, {"--seed"});
+    if (arguments.together && arguments.common.output == "-")
+      throw UsageError(
+          "standard output takes one file, and --together writes one for each label: name them by -o FILE");
     return run_segment(arguments);
   });
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "batten/mesh/vertex_fields.h"
 
 namespace batten::cli {
@@ -16,6 +18,12 @@ std::string grouped(std::int64_t number) {
 
 std::string count_of(std::int64_t number, const std::string& singular, const std::string& plural) {
   return grouped(number) + " " + (number == 1 ? singular : plural);
+}
+
+std::string fixed_text(double value, int decimals) {
+  const double size = std::abs(value);
+  const bool fits = size == 0.0 || (size >= std::pow(10.0, 1 - decimals) && size < 1e9);
+  return fits ? fmt::format("{:.{}f}", value, decimals) : fmt::format("{:.4g}", value);
 }
 
 std::string size_text(const Mesh& mesh) {

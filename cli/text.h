@@ -14,6 +14,8 @@ namespace batten::cli {
 std::string grouped(std::int64_t number);
 /// "1 vertex", "12,345 vertices"
 std::string count_of(std::int64_t number, const std::string& singular, const std::string& plural);
+/// A number with so many decimals; with four digits where that would show less than two of it, or more than it has.
+std::string fixed_text(double value, int decimals);
 /// "8 vertices, 6 faces"
 std::string size_text(const Mesh& mesh);
 /// As size_text, and how many vertices have no face.

@@ -44,11 +44,23 @@ std::string no_verb_text(const CLI::App& app, const std::vector<std::string>& le
   return "'" + left.front() + "' is not a verb" + (near.empty() ? "; name one of " + all : near);
 }
 
-/// CLI11 speaks of numbers of arguments; people leave a value out or give an option twice.
-std::string mismatch_text(const CLI::ParseError& error) {
+/// CLI11 speaks of numbers of arguments; people leave a value out, give an option twice, or too few numbers in a list.
+std::string mismatch_text(const CLI::App& verb, const CLI::ParseError& error) {
   const std::string text = error.what();
   const std::string option = text.substr(0, text.find(':'));
+  const CLI::Option* known = verb.get_option_no_throw(option);
+  if (known != nullptr && known->get_delimiter() != '\0' && known->get_expected_min() > 1)
+    return fmt::format("{} takes {} numbers with commas between", option, known->get_expected_min());
   return option + (text.find("missing") != std::string::npos ? " needs a value" : " is given more than once");
+}
+
+/// "Could not convert: --seed = a,b,c"
+std::string conversion_text(const CLI::ParseError& error) {
+  const std::string text = error.what();
+  const std::size_t option = text.find("--");
+  const std::size_t equals = text.find(" = ");
+  if (option == std::string::npos || equals == std::string::npos || equals < option) return text;
+  return text.substr(option, equals - option) + ": '" + text.substr(equals + 3) + "' is not a number";
 }
 
 /// True if the whole text is a number.
@@ -69,7 +81,8 @@ std::string usage_text(const CLI::App& app, const CLI::ParseError& error) {
   const auto unknown = std::find_if(left.begin(), left.end(), is_option);
   if (unknown != left.end()) return unknown_option_text(verb, *unknown);
   if (!left.empty()) return "'" + left.front() + "': " + verb.get_name() + " takes no further file";
-  return error.get_name() == "ArgumentMismatch" ? mismatch_text(error) : error.what();
+  if (error.get_name() == "ConversionError") return conversion_text(error);
+  return error.get_name() == "ArgumentMismatch" ? mismatch_text(verb, error) : error.what();
 }
 
 bool is_given(const CLI::App& verb, const std::string& option) {

@@ -103,5 +103,59 @@ TEST_F(FitTool, RefusesWhatMakesNoSense) {
   EXPECT_NE(missing.err.find("nowhere.obj"), std::string::npos) << missing.err;
 }
 
+TEST_F(FitTool, ReadsStandardInput) {
+  write_mesh(path("points.xyz"), torus_points());
+  const Outcome result =
+      run("fit - --input-format xyz --init sphere --vertices 98 --rounds 1 -o - --output-format obj <points.xyz");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.out.find("nan"), std::string::npos);
+  write("a.obj", result.out);
+  EXPECT_EQ(read_mesh(path("a.obj")).vertex_count(), 98);
+}
+
+TEST_F(FitTool, RepairsItsInputAndNamesTheVerbThatRepairsTheStart) {
+  // Two tetrahedra on one edge.
+  write("edge.obj",
+        "v 0 0 0\nv 0 0 1\nv 1 0 0\nv 1 1 0\nv -1 0 0\nv -1 -1 0\n"
+        "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nf 1 5 2\nf 1 2 6\nf 1 6 5\nf 2 5 6\n");
+  const Outcome refused = run("fit edge.obj -o a.obj");
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.err.find("(or let --repair do it)"), std::string::npos) << refused.err;
+  EXPECT_EQ(run("fit edge.obj --repair --init sphere --vertices 98 --rounds 1 -o a.obj").status, 0);
+  write_mesh(path("points.xyz"), torus_points());
+  const Outcome start = run("fit points.xyz --init edge.obj -o b.obj");
+  EXPECT_EQ(start.status, 1);
+  EXPECT_EQ(start.err.rfind("batten: edge.obj: ", 0), 0U) << start.err;
+  EXPECT_NE(start.err.find("(or let batten repair do it)"), std::string::npos) << start.err;
+}
+
+TEST_F(FitTool, SaysThatNoSurfaceHasSoFewControlPoints) {
+  write_mesh(path("points.xyz"), torus_points());
+  const Outcome result = run("fit points.xyz --init sphere --vertices 8 --rounds 1 -o a.obj");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("as few as the 8 control points asked"), std::string::npos) << result.out;
+}
+
+TEST_F(FitTool, RefusesPointsAndStartsWithoutASurface) {
+  std::string line;
+  std::string large;
+  for (int i = 0; i < 100; ++i) {
+    line += std::to_string(i) + " " + std::to_string(2 * i) + " " + std::to_string(3 * i) + "\n";
+    large += std::to_string(i % 7) + "e200 " + std::to_string(i % 5) + "e200 " + std::to_string(i % 3) + "e200\n";
+  }
+  write("line.xyz", line);
+  write("large.xyz", large);
+  write("point.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3 4\n");
+  const auto refused = [&](const std::string& arguments, const std::string& part) {
+    const Outcome result = run("fit " + arguments + " -o a.obj");
+    EXPECT_EQ(result.status, 1) << arguments;
+    EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
+    EXPECT_FALSE(fs::exists(path("a.obj")));
+  };
+  refused("line.xyz --init sphere", "on one line");
+  refused("large.xyz", "too large or too small for doubles; scale the points");
+  refused("line.xyz --init point.obj", "all vertices of the control mesh to start from are at the same place");
+}
+
 }  // namespace
 }  // namespace batten::cli_tests

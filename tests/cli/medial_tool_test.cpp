@@ -100,5 +100,12 @@ TEST_F(MedialTool, RefusesOptionsWithoutEffect) {
   EXPECT_EQ(run("medial " + kModels + "slab.json --picture a.png --color zebra").status, 2);
 }
 
+TEST_F(MedialTool, RefusesAnSrepOfASheetBeforeAnythingIsWritten) {
+  const Outcome result = run("medial " + kModels + "slab.json -o a.obj --model b.srep.json");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.err.find("b.srep.json: an .srep.json holds one figure"), std::string::npos) << result.err;
+  EXPECT_FALSE(fs::exists(path("a.obj")));
+}
+
 }  // namespace
 }  // namespace batten::cli_tests

@@ -187,9 +187,26 @@ TEST_F(SegmentTool, SaysWhatIsWrong) {
   EXPECT_EQ(run("segment ball.nrrd").status, 2) << "nothing to write";
   const Outcome absent = run("segment ball.nrrd --label 71 -o a.obj");
   EXPECT_EQ(absent.status, 1);
-  EXPECT_NE(absent.err.find("there are 7"), std::string::npos) << absent.err;
+  EXPECT_NE(absent.err.find("no voxel has the label 71; there are 7"), std::string::npos) << absent.err;
+  const Outcome one = run("segment ball.nrrd --label 7,71 -o a.obj");
+  EXPECT_EQ(one.status, 1) << "a label that is nowhere is not passed over";
+  EXPECT_NE(one.err.find("no voxel has the label 71; there are 7"), std::string::npos) << one.err;
+  const Outcome pipe = run("segment ball.nrrd --label 7,71 --together -o - --output-format obj");
+  EXPECT_EQ(pipe.status, 2);
+  EXPECT_NE(pipe.err.find("standard output takes one file"), std::string::npos) << pipe.err;
   EXPECT_NE(run("segment nowhere.nii -o a.obj").err.find("nowhere.nii"), std::string::npos);
   EXPECT_FALSE(fs::exists(path("a.obj")));
+}
+
+TEST_F(SegmentTool, SaysVolumesOfSmallUnits) {
+  std::string metres = ball();
+  const std::string from = "(2,0,0) (0,2,0) (0,0,3)";
+  metres.replace(metres.find(from), from.size(), "(0.002,0,0) (0,0.002,0) (0,0,0.003)");
+  write("metres.nrrd", metres);
+  const Outcome result = run("segment metres.nrrd --vertices 100 -o a.obj");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.out.find(" 0.0 mm"), std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find(" 0.000 mm"), std::string::npos) << result.out;
 }
 
 }  // namespace

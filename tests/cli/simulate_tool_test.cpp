@@ -141,5 +141,25 @@ TEST_F(SimulateTool, RefusesOptionsWithoutMeaning) {
   EXPECT_NE(result.err.find("old.state: the state file does not begin"), std::string::npos) << result.err;
 }
 
+TEST_F(SimulateTool, NamesAPlaceOnce) {
+  write_mesh(path("flat.obj"), read_mesh(kModels + "lifted-grid.obj"));
+  const auto error_of = [&](const std::string& part) {
+    write("s.json", R"({"mesh": "flat.obj", )" + part + "}");
+    return run("simulate s.json").err;
+  };
+  EXPECT_EQ(error_of(R"("supports": [{"type": "hold", "vertices": [1]}, {"type": "hold", "vertices": [2, 1]}])"),
+            "batten: s.json: supports[1]: vertex 1 is held twice; name it once\n");
+  const std::string place = error_of(
+      R"("forces": [{"type": "spring", "at": {"face": 9999, "u": 0, "v": 0}, "to": [0, 0, 0], "stiffness": 1}])");
+  EXPECT_EQ(place.rfind("batten: s.json: forces[0].at: there is no face 9999", 0), 0U) << place;
+}
+
+TEST_F(SimulateTool, RefusesAStepBeyondTheEnd) {
+  write_scene(R"("seconds": 0.1)");
+  const Outcome result = run("simulate s.json --step 5 -o f.glb");
+  EXPECT_EQ(result.status, 1) << "five seconds instead of a tenth, or none";
+  EXPECT_NE(result.err.find("one step is longer than all these seconds"), std::string::npos) << result.err;
+}
+
 }  // namespace
 }  // namespace batten::cli_tests

@@ -39,6 +39,8 @@ TEST_F(Usage, WordsSayWhatIsMissingOrTooMuch) {
   expect_refused("subdivide x.obj --levels 1 --levels 2", "--levels is given more than once");
   expect_refused("subdivide x.obj y.obj", "'y.obj': subdivide takes no further file");
   expect_refused("distance x.obj", "SURFACE is required");
+  expect_refused("segment x.nii -o a.obj --seed 1,2", "--seed takes 3 numbers with commas between");
+  expect_refused("segment x.nii -o a.obj --seed a,b,c", "--seed: 'a,b,c' is not a number");
 }
 
 TEST_F(Usage, NumbersOutOfRangeAreRefusedInWords) {
@@ -50,6 +52,9 @@ TEST_F(Usage, NumbersOutOfRangeAreRefusedInWords) {
   expect_refused("render x.obj -o a.png --width -3", "'-3' is not a whole number (1 to 16384)");
   expect_refused("interpolate x.obj --tolerance nan", "--tolerance: 'nan' is not a number above 0");
   expect_refused("interpolate x.obj --alpha nan", "--alpha: 'nan' is not a number from 0 to 1");
+  expect_refused("render x.obj -o a.png --view 0,0,0", "--view: '0,0,0' is no direction");
+  expect_refused("segment x.nii -o a.obj --label a", "--label: 'a' is not a number");
+  expect_refused("segment x.nii -o a.obj --label ''", "--label: '' is not a number");
   expect_refused("denoise x.obj --passes 1e3", "'1e3' is not a whole number (0 to 1000000)");
 }
 
@@ -103,6 +108,7 @@ TEST_F(Usage, AVerbWithoutAnOutputIsRefused) {
        {"interpolate", "subdivide", "convert", "repair", "denoise", "sharpen", "bands", "texture"})
     expect_refused(verb + " x.obj", verb + part);
   expect_refused("morph x.obj y.obj", "morph" + part);
+  expect_refused("fit x.xyz", "give one of --report, --output, --residuals, --film, --picture, --frames (see");
   EXPECT_EQ(run("interpolate " + tripod_ + "--compare-methods").status, 0);
   EXPECT_EQ(run("subdivide " + tetrahedron_ + "--compare --levels 1").status, 0);
   EXPECT_EQ(run("distance " + tripod_ + tripod_).status, 0);

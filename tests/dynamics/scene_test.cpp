@@ -107,6 +107,7 @@ TEST(SceneErrors, NameThePlaceTheFaultAndTheWayOut) {
                  "forces[2].stiffness: -3 is negative; give 0 or more");
   expect_refused(R"("time": {"step": 0})", "time.step: 0 is not above 0");
   expect_refused(R"("time": {"seconds": 1e9, "step": 1e-3})", "time: these are more than ten million steps");
+  expect_refused(R"("time": {"seconds": 1, "step": 1.5})", "time: one step is longer than all these seconds");
   expect_refused(R"("time": {"refine": [2, 1]})", "time.refine[1]: the times must increase");
   expect_refused(R"("refine": 30)", "refine: 30 is too much; give 6 or less");
   expect_refused(R"("material": {"density": []})", "material.density: a number, or one a face");

@@ -53,6 +53,14 @@ double missed(const FairInterpolant& fair, ConstValuesRef targets) {
   return (limit.topRows(targets.rows()) - targets).rowwise().norm().maxCoeff();
 }
 
+TEST(FairInterpolation, MeasuresWhereSquaresLeaveTheDoubles) {
+  Mesh mesh = test::jittered(torus(7, 5), 0.05, 1);
+  mesh.points *= 1e200;
+  const FairInterpolant result = interpolate_fairly(Topology(mesh), Scheme(), mesh.points, {});
+  EXPECT_LE(result.report.max_error / result.report.diagonal, 1e-14);
+  EXPECT_TRUE(std::isfinite(result.report.rms_error));
+}
+
 TEST(FairInterpolation, PassesThroughItsTargets) {
   for (const test::NamedMesh& sample : fair_samples()) {
     for (const int levels : {1, 2}) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 
 #include "batten/error.h"
 #include "batten/mesh/primitives.h"
@@ -45,6 +46,23 @@ double error_of(const Mesh& mesh, const Interpolant& result) {
 TEST(Interpolator, PassesThroughANoisyTorus) {
   const Mesh mesh = shaken(torus(60, 40), 0.02);
   EXPECT_LE(error_of(mesh, solve(mesh, kQuads)), 1e-10);
+}
+
+TEST(Interpolator, SolvesWhereSquaresLeaveTheDoubles) {
+  const Mesh mesh = shaken(torus(12, 8), 0.02);
+  const Interpolant unit = solve(mesh, kQuads);
+  for (const int exponent : {-700, 700}) {
+    Mesh scaled = mesh;
+    scaled.points *= std::ldexp(1.0, exponent);
+    const Interpolant result = solve(scaled, kQuads);
+    EXPECT_EQ(result.report.outcome, Outcome::Reached);
+    EXPECT_EQ(result.report.solve.iterations, unit.report.solve.iterations);
+    EXPECT_TRUE(std::isfinite(result.report.rms_error));
+    EXPECT_LE(result.report.max_error / result.report.diagonal, 1e-10);
+    EXPECT_NEAR(result.report.diagonal * std::ldexp(1.0, -exponent), unit.report.diagonal, 1e-12);
+    const Values back = result.control * std::ldexp(1.0, -exponent);
+    EXPECT_LE((back - unit.control).cwiseAbs().maxCoeff(), 1e-9);
+  }
 }
 
 TEST(Interpolator, PassesThroughTheRegularSolidsByBothSchemes) {

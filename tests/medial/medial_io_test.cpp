@@ -260,6 +260,10 @@ TEST(MedialFiles, DamagedFiguresNameTheAtom) {
   expect("\"grid\": [2, 2]", "\"faces\": [[0, 1, 3, 7]]", "figure 0, face 0: atom 7 does not exist");
   expect("\"grid\": [2, 2]", "\"faces\": [[0, 1, 3]]", "figure 0, atom 2: the atom is in no face");
   expect("\"radius\": 1,", "\"elongation\": -1,", "figure 0, atom 0, elongation: ");
+  expect("\"radius\": 1,", "\"radios\": 1,",
+         "figure 0, atom 0: there is no key \"radios\" here (did you mean radius?)");
+  expect("\"grid\"", "\"gird\"", "figure 0: there is no key \"gird\" here (did you mean grid?)");
+  expect("{\"figures\"", "{\"hinge\": [], \"figures\"", "there is no key \"hinge\" here (did you mean hinges?)");
 }
 
 TEST(MedialFiles, RefusesToWriteWhatAnSrepCannotHold) {

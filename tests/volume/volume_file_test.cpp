@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 #include "batten/error.h"
 #include "support/errors.h"
@@ -114,6 +115,13 @@ TEST_F(VolumeFile, RefusesWhatIsNoVolume) {
         "encoding: ascii\n\n" +
             std::string(48, '1') + "\n");
   expect_refused("vector.nrrd", ErrorCode::BadFile, "3 numbers a voxel");
+  for (const std::size_t at : {80, 256, 280, 324}) {
+    std::string broken = nifti({3, 2, 3, 4, 1}, 24);
+    const float number = at == 280 ? std::numeric_limits<float>::infinity() : std::numeric_limits<float>::quiet_NaN();
+    std::memcpy(&broken[at], &number, sizeof number);
+    write("nan.nii", broken);
+    expect_refused("nan.nii", ErrorCode::BadFile, "number at byte " + std::to_string(at));
+  }
   write("text.nii", "no volume at all");
   expect_refused("text.nii", ErrorCode::BadFile, "");
   expect_refused("missing.nii", ErrorCode::FileNotReadable, "");

@@ -103,7 +103,10 @@ void refine_from_json(const JsonPlace& place, SceneTime& time) {
 std::string wrong_steps(const SceneTime& time) {
   constexpr double kMostSteps = 1e7;
   const bool few = time.seconds >= 0.0 && time.seconds / time.motion.step <= kMostSteps;
-  return few ? "" : "these are more than ten million steps; give fewer seconds or a longer step";
+  if (!few) return "these are more than ten million steps; give fewer seconds or a longer step";
+  // Steps are whole: one that is longer than the run would go far past its end.
+  const bool fits = time.seconds == 0.0 || time.motion.step <= time.seconds * (1.0 + 1e-9);
+  return fits ? "" : "one step is longer than all these seconds; give more seconds or a shorter step";
 }
 
 ElasticOptions body_from_json(const JsonPlace& document) {

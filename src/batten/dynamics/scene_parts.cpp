@@ -83,12 +83,17 @@ void add_hold(const SceneHold& hold, const ElasticSurface& body, const Points& s
     throw Error(ErrorCode::BadArgument, hold.boundary ? "the mesh has no boundary to hold"
                                                       : "no control point starts in this box, so it holds nothing");
   }
+  std::vector<bool> held(static_cast<std::size_t>(topology.vertex_count()), false);
+  for (const Supports::FixedPoint& point : supports.points) held[static_cast<std::size_t>(point.vertex)] = true;
   for (const Index v : vertices) {
     if (v >= topology.vertex_count()) {
       throw Error(ErrorCode::IndexOutOfRange, "there is no vertex " + std::to_string(v) +
                                                   "; the mesh has vertices 0 to " +
                                                   std::to_string(topology.vertex_count() - 1));
     }
+    if (held[static_cast<std::size_t>(v)])
+      throw Error(ErrorCode::BadArgument, "vertex " + std::to_string(v) + " is held twice; name it once");
+    held[static_cast<std::size_t>(v)] = true;
     const Eigen::Vector3d from = start.row(v).transpose();
     if (hold.move.points.empty()) {
       supports.points.push_back({v, stay_at(from)});

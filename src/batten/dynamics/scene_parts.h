@@ -33,14 +33,16 @@ std::vector<std::shared_ptr<const Force>> scene_forces(const ElasticScene& scene
                                                        const ElasticSurface& body);
 Supports scene_supports(const ElasticScene& scene, const ElasticSurface& body, const Points& start);
 
-/// Calls `make`; an Error that it throws gets "SCENE: PLACE: " before its message, as forces[2].
+/// Calls `make`; an Error that it throws gets "SCENE: PLACE: " before its message, as forces[2], unless a part within
+/// has said its place already.
 template <typename Make>
 auto made_at(const ElasticScene& scene, const std::string& place, const Make& make) {
   try {
     return make();
   } catch (const Error& error) {
-    if (error.code() == ErrorCode::Cancelled) throw;
-    throw Error(error.code(), scene.name + ": " + place + ": " + error.what());
+    const std::string message = error.what();
+    if (error.code() == ErrorCode::Cancelled || message.rfind(scene.name + ": ", 0) == 0) throw;
+    throw Error(error.code(), scene.name + ": " + place + ": " + message);
   }
 }
 

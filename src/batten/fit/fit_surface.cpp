@@ -33,6 +33,8 @@ void require_options(const PointCloud& cloud, const FitOptions& options) {
                                             scheme_name(options.scheme.kind) + " scheme");
   if (!(options.tolerance >= 0.0)) throw Error(ErrorCode::BadArgument, "the tolerance must be 0 or more");
   if (options.rounds < 1) throw Error(ErrorCode::BadArgument, "a fit takes one round or more");
+  if (options.initial && !(bounding_diagonal(options.initial->points) > 0.0))
+    throw Error(ErrorCode::BadArgument, "all vertices of the control mesh to start from are at the same place");
   if (cloud.points.rows() < 4)
     throw Error(ErrorCode::BadArgument,
                 "a fit needs four points or more; there are " + std::to_string(cloud.points.rows()));
@@ -73,7 +75,10 @@ FitResult fit_surface(const PointCloud& cloud, const FitOptions& options, const 
   require_options(cloud, options);
   FitReport report;
   report.diameter = 2.0 * enclosing_sphere(cloud.points).radius;
-  if (!(report.diameter > 0.0)) throw Error(ErrorCode::BadArgument, "all points are at the same place");
+  if (bounding_diagonal(cloud.points) == 0.0) throw Error(ErrorCode::BadArgument, "all points are at the same place");
+  if (!(report.diameter > 0.0) || !std::isfinite(report.diameter))
+    throw Error(ErrorCode::BadArgument,
+                "squares of distances between the points are too large or too small for doubles; scale the points");
   const WorkingCloud working = working_cloud(cloud, options, progress_within(progress, 0.0, 0.05));
   const PointCloud& known = working.cloud;
   const OutlierFilter filter(known.points, progress_within(progress, 0.05, 0.07));

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include "batten/error.h"
 #include "batten/mesh/primitives.h"
 #include "batten/mesh/topology.h"
 #include "batten/refine/refinement.h"
@@ -13,6 +14,8 @@ namespace {
 
 /// Of the longest half axis.
 constexpr double kLeastAxis = 0.01;
+/// Points that are not farther from a line than this, of half its length, are on it.
+constexpr double kOnLine = 1e-9;
 
 /// The principal axes of points around their mean, in columns, right-handed.
 Eigen::Matrix3d principal_axes(ConstValuesRef points) {
@@ -41,6 +44,9 @@ Mesh start_sphere(ConstValuesRef points, SchemeKind kind) {
   const Eigen::RowVector3d low = along.colwise().minCoeff();
   const Eigen::RowVector3d high = along.colwise().maxCoeff();
   Eigen::RowVector3d half = 0.5 * (high - low);
+  // Ascending, as the axes are.
+  if (!(half[1] > kOnLine * half[2]))
+    throw Error(ErrorCode::BadArgument, "the points are on one line: a sphere around them has no surface to move");
   half = half.cwiseMax(kLeastAxis * half.maxCoeff());
   Mesh mesh = mesh_from_topology(refined.topology);
   const Points placed = directions * half.asDiagonal();

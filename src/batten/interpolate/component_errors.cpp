@@ -58,7 +58,7 @@ std::vector<ComponentErrors> component_errors(const Components& components, cons
     ComponentErrors& component = all[c];
     if (component.centre.size() == 0) continue;  // no columns
     component.largest = std::max(component.centre.cwiseAbs().maxCoeff(), high[c].cwiseAbs().maxCoeff());
-    component.diagonal = (high[c] - component.centre).norm();
+    component.diagonal = (high[c] - component.centre).stableNorm();
     component.centre = 0.5 * component.centre + 0.5 * high[c];
     component.farthest = std::sqrt(component.farthest);
     component.movement = std::sqrt(component.movement);

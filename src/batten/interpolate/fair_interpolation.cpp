@@ -302,7 +302,10 @@ FairInterpolant interpolate_fairly(const Topology& topology, const Scheme& schem
   report.energy *= unit;
   measure_normals(fine, solve.normals(), options.normals, control, report);
   control = frame.outwards(control);
-  measure_positions(solve.limit(), control, targets, report);
+  // In the frame, where squares are ordinary numbers; of the control points that are handed out, rounded as they are.
+  measure_positions(solve.limit(), frame.inwards(control), wanted, report);
+  report.max_error /= frame.scale;
+  report.rms_error /= frame.scale;
   report_progress(progress, 1.0);
   return {fine.topology, fine.scheme, std::move(control), std::move(report)};
 }

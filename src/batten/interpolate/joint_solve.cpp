@@ -7,6 +7,7 @@
 #include <string>
 
 #include "batten/interpolate/component_solve.h"
+#include "batten/mesh/unit_scale.h"
 #include "batten/refine/part_refinement.h"
 #include "batten/refine/refined_values.h"
 
@@ -399,11 +400,37 @@ class JointSolve {
   std::shared_ptr<const PartRefinement> part_;
 };
 
+/// Gives what was solved for `scale` times the targets their own unit.
+void unscale(double scale, Interpolant& result) {
+  InterpolationReport& report = result.report;
+  result.control /= scale;
+  if (!result.control.allFinite())
+    throw Error(ErrorCode::NotFinite, report.name + ": control points would not be finite; scale the numbers down");
+  for (double* length : {&report.diagonal, &report.max_error, &report.rms_error, &report.max_movement})
+    *length /= scale;
+  for (RowError& row : report.worst) row.error /= scale;
+  for (double& residual : report.solve.residual_history) residual /= scale;
+}
+
 }  // namespace
 
 std::vector<Interpolant> solve_jointly(const InterpolationSystem& system, std::span<const Targets> sets,
                                        const Progress& progress) {
-  return JointSolve(system, sets, progress).run();
+  std::vector<double> scales;
+  for (const Targets& set : sets) scales.push_back(unit_scale(set.values));
+  if (std::all_of(scales.begin(), scales.end(), [](double scale) { return scale == 1.0; }))
+    return JointSolve(system, sets, progress).run();
+  // Squares of these numbers leave the doubles. A power of two loses nothing on the way there and back.
+  std::vector<Values> values;
+  std::vector<Targets> scaled;
+  values.reserve(sets.size());
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    values.emplace_back(scales[i] * sets[i].values);
+    scaled.push_back({sets[i].name, values.back()});
+  }
+  std::vector<Interpolant> results = JointSolve(system, scaled, progress).run();
+  for (std::size_t i = 0; i < results.size(); ++i) unscale(scales[i], results[i]);
+  return results;
 }
 
 }  // namespace batten

@@ -74,6 +74,7 @@ CrestSpoke read_crest(const JsonPlace& place, const MedialFigure& figure, Index 
     if (place.has("elongation")) crest.fail("the atom has both crest and elongation; leave one out");
     CrestSpoke read{atom, position, Eigen::Vector3d::Zero()};
     if (crest.is_object()) {
+      crest.require_keys({"position", "spoke"});
       if (crest.has("position")) read.origin = crest.at("position").vector();
       read.spoke = crest.at("spoke").vector();
     } else {
@@ -122,6 +123,7 @@ void read_coordinates(const JsonPlace& atoms, MedialFigure& figure) {
 
 MedialFigure read_figure(const JsonPlace& place) {
   MedialFigure figure;
+  place.require_keys({"name", "grid", "faces", "atoms"});
   if (place.has("name")) figure.name = place.at("name").text();
   const JsonPlace atoms = place.at("atoms");
   const std::size_t count = atoms.size();
@@ -134,6 +136,7 @@ MedialFigure read_figure(const JsonPlace& place) {
   figure.down.resize(rows, 3);
   for (std::size_t i = 0; i < count; ++i) {
     const JsonPlace atom = atoms.item(i);
+    atom.require_keys({"position", "radius", "up", "down", "crest", "elongation", "uv"});
     const AtomRadii radii = read_radii(atom);
     const auto row = static_cast<Eigen::Index>(i);
     figure.sheet.points.row(row) = atom.at("position").vector().transpose();
@@ -168,6 +171,7 @@ Index read_figure_number(const JsonPlace& place, const MedialModel& model) {
 
 HingePlace read_hinge_place(const JsonPlace& place, const MedialModel& model) {
   HingePlace read;
+  place.require_keys({"figure", "edge", "faces", "side"});
   read.figure = read_figure_number(place.at("figure"), model);
   if (place.has("edge")) {
     read.edge = read_indices(place.at("edge"));
@@ -237,6 +241,7 @@ Json figure_json(const MedialFigure& figure) {
 
 MedialModel figures_from_json(const JsonPlace& document) {
   MedialModel model;
+  document.require_keys({"figures", "hinges"});
   const JsonPlace figures = document.at("figures");
   for (std::size_t i = 0; i < figures.size(); ++i) model.figures.push_back(read_figure(figures.item(i)));
   if (model.figures.empty()) figures.fail("there is no figure");
@@ -244,6 +249,7 @@ MedialModel figures_from_json(const JsonPlace& document) {
   const JsonPlace hinges = document.at("hinges");
   for (std::size_t i = 0; i < hinges.size(); ++i) {
     const JsonPlace hinge = hinges.item(i);
+    hinge.require_keys({"child", "parent"});
     model.hinges.push_back({read_hinge_place(hinge.at("child"), model), read_hinge_place(hinge.at("parent"), model)});
   }
   return model;

@@ -50,8 +50,7 @@ MedialModel read_medial(const std::string& path, const Progress& progress) {
   }
 }
 
-void write_medial(const std::string& path, const MedialModel& model) {
-  require_medial(model);
+void require_medial_format(const std::string& path, const MedialModel& model) {
   const bool srep = is_srep_path(path);
   if (!srep && path != "-" && !io::is_special_target(path) && !ends_with(path, ".json"))
     throw Error(ErrorCode::UnknownFormat, path + ": a medial model is written as .srep.json or .json");
@@ -59,7 +58,13 @@ void write_medial(const std::string& path, const MedialModel& model) {
     throw Error(ErrorCode::BadArgument,
                 path + ": an .srep.json holds one figure on an elliptical grid; write .json instead");
   }
-  const medial::Json json = srep ? medial::srep_to_json(model.figures.front()) : medial::figures_to_json(model);
+}
+
+void write_medial(const std::string& path, const MedialModel& model) {
+  require_medial(model);
+  require_medial_format(path, model);
+  const medial::Json json =
+      is_srep_path(path) ? medial::srep_to_json(model.figures.front()) : medial::figures_to_json(model);
   const std::string text = io::json_text(json);
   write_bytes(path, Buffer<unsigned char>(text.begin(), text.end()));
 }

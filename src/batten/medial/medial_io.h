@@ -27,10 +27,12 @@ namespace batten {
 /// is missing or is not what the format says; whatever require_medial throws, with the file's name. O(bytes).
 MedialModel read_medial(const std::string& path, const Progress& progress = {});
 
+/// Throws what write_medial would for this path, whatever the numbers are: Error(UnknownFormat) for another extension
+/// than .json, Error(BadArgument) for a .srep.json of anything but one figure on an elliptical grid.
+void require_medial_format(const std::string& path, const MedialModel& model);
+
 /// Writes .srep.json where the path ends so, otherwise Batten's own JSON; numbers read back bit for bit. "-" is
-/// standard output. Throws Error(FileNotWritable), Error(UnknownFormat) for another extension than .json,
-/// Error(BadArgument) for a .srep.json of anything but one figure on an elliptical grid, and what require_medial
-/// throws.
+/// standard output. Throws Error(FileNotWritable), and what require_medial_format and require_medial throw.
 void write_medial(const std::string& path, const MedialModel& model);
 
 /// What a file written by write_medial(path, model) lacks of the model, in words such as "the figure's name"; empty if

@@ -9,13 +9,17 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <map>
 #include <memory>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "batten/error.h"
@@ -132,6 +136,32 @@ void check_length(const std::string& path, double bytes) {
   if (held < bytes) refuse(path, "the file is cut off: it holds fewer voxels than its header says");
 }
 
+/// Refuses a NIfTI-1 header whose voxel sizes or directions are not finite: VNL ends the whole process for them.
+void check_nifti_numbers(const std::string& path) {
+  const std::string extension = extension_of(path);
+  if (extension != ".nii" && extension != ".nii.gz" && extension != ".hdr") return;
+  std::array<unsigned char, 348> header{};
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"), gzclose);
+  const int size = static_cast<int>(header.size());
+  if (!file || gzread(file.get(), header.data(), header.size()) != size) return;  // ITK tells
+  const auto word = [&](std::size_t at, bool big) {
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; i < 4; ++i) bits |= std::uint32_t{header[at + i]} << 8 * (big ? 3 - i : i);
+    return bits;
+  };
+  const bool big = word(0, true) == header.size();
+  if (!big && word(0, false) != header.size()) return;
+  // The headers' numbers are floats: pixdim, the quaternion with its offset, the rows of the affine map.
+  constexpr std::array<std::pair<std::size_t, std::size_t>, 2> kPlaces{{{76, 8}, {256, 18}}};
+  for (const auto& [first, count] : kPlaces) {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (std::isfinite(std::bit_cast<float>(word(first + 4 * i, big)))) continue;
+      refuse(path, "the header's number at byte " + std::to_string(first + 4 * i) +
+                       " (voxel sizes and directions) is not finite; write the file again");
+    }
+  }
+}
+
 void check_header(const std::string& path, const itk::ImageIOBase& io) {
   // Deflate makes at most 1032 bytes of one.
   constexpr double kMostInflated = 1100.0;
@@ -206,6 +236,7 @@ Volume volume_of(const FloatImage& image) {
 
 Volume read_image(const std::string& path) {
   const itk::ImageIOBase::Pointer io = image_io(path);
+  check_nifti_numbers(path);
   io->SetFileName(path);
   io->ReadImageInformation();
   check_header(path, *io);

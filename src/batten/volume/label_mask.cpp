@@ -36,6 +36,13 @@ VoxelBox box_of(const Volume& volume, const Test& has) {
   return box;
 }
 
+std::string label_text(double label) {
+  std::string number = std::to_string(label);
+  number.erase(number.find_last_not_of('0') + 1);
+  if (number.back() == '.') number.pop_back();
+  return number;
+}
+
 [[noreturn]] void refuse(const Volume& volume, const std::vector<double>& labels) {
   constexpr std::size_t kMostListed = 12;
   std::set<float> there;
@@ -45,13 +52,10 @@ VoxelBox box_of(const Volume& volume, const Test& has) {
   std::string text;
   for (const float value : there) {
     if (!text.empty()) text += ", ";
-    std::string number = std::to_string(value);
-    number.erase(number.find_last_not_of('0') + 1);
-    if (number.back() == '.') number.pop_back();
-    text += number;
+    text += label_text(value);
   }
   if (there.size() > kMostListed) text += ", ...";
-  const std::string which = labels.size() == 1 ? "the label" : "any of the labels";
+  const std::string which = labels.size() == 1 ? "the label " + label_text(labels.front()) : "any of the labels";
   throw Error(ErrorCode::BadArgument,
               "no voxel has " + which + "; there " + (there.empty() ? "is only 0" : "are " + text));
 }
@@ -61,12 +65,21 @@ VoxelBox box_of(const Volume& volume, const Test& has) {
 Volume label_mask(const Volume& volume, const std::vector<double>& labels, Index margin) {
   require_volume(volume);
   if (margin < 0) throw Error(ErrorCode::BadArgument, "a margin is 0 voxels or more");
+  std::set<double> met;
   const auto has = [&](float value) {
     if (labels.empty()) return value != 0.0F;
     return std::any_of(labels.begin(), labels.end(), [&](double label) { return label == value; });
   };
-  const VoxelBox box = box_of(volume, has);
+  const auto meet = [&](float value) {
+    const bool is_in = has(value);
+    if (is_in && (met.empty() || *met.rbegin() != value)) met.insert(value);
+    return is_in;
+  };
+  const VoxelBox box = box_of(volume, meet);
   if (box.is_empty()) refuse(volume, labels);
+  for (const double label : labels) {
+    if (met.count(label) == 0) refuse(volume, {label});
+  }
   Volume mask;
   mask.grid = volume.grid;
   Eigen::Vector3d low;
