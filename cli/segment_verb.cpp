@@ -95,9 +95,6 @@ void add_segment(CLI::App& app, SegmentArguments& arguments, int& status) {
       throw UsageError("--together writes a file for each label: standard output takes one");
     require_with(verb, {"--edges"}, {"--mask"});
     require_with(verb, {"--numbers"}, {"--seed"});
-    if (arguments.together && arguments.common.output == "-")
-      throw UsageError(
-          "standard output takes one file, and --together writes one for each label: name them by -o FILE");
     return run_segment(arguments);
   });
 }
