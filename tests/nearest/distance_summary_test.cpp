@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "batten/error.h"
 #include "batten/mesh/primitives.h"
 #include "batten/nearest/surface_distances.h"
 
@@ -65,6 +66,20 @@ TEST(SamplePoints, KeepTheFarthestAndSpreadTheRest) {
   EXPECT_TRUE(std::is_sorted(sample.begin(), sample.end()));
   EXPECT_TRUE(std::binary_search(sample.begin(), sample.end(), 777));
   EXPECT_EQ(sample_points(distances, 1000).size(), 1000U);
+}
+
+TEST(SurfaceDistances, AreRefusedWhereTheirSquaresAreInfinite) {
+  const Mesh mesh = cube();
+  const Topology topology(mesh);
+  const Points far = 1e200 * mesh.points;
+  for (const auto& [control, points] : {std::pair{far, mesh.points}, std::pair{mesh.points, far}}) {
+    try {
+      measure_distances(topology, {}, control, points);
+      ADD_FAILURE() << "no error";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::NotFinite) << error.what();
+    }
+  }
 }
 
 TEST(SurfaceDistances, AreNegativeInsideAClosedSurfaceOnly) {

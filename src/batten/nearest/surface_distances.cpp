@@ -1,10 +1,23 @@
 #include "batten/nearest/surface_distances.h"
 
+#include <cmath>
+
+#include "batten/error.h"
 #include "batten/nearest/surface_side.h"
 #include "batten/parallel/parallel.h"
 #include "batten/progress.h"
 
 namespace batten {
+
+namespace {
+
+[[noreturn]] void refuse_lengths() {
+  throw Error(ErrorCode::NotFinite,
+              "squares of lengths on the surface, or of distances from it, are too large for "
+              "doubles; scale the points and the surface down");
+}
+
+}  // namespace
 
 SurfaceDistances measure_distances(const Topology& topology, const Scheme& scheme, ConstValuesRef control,
                                    ConstValuesRef points, const Progress& progress) {
@@ -16,6 +29,7 @@ SurfaceDistances measure_distances(const Topology& topology, const Scheme& schem
   SurfaceDistances measured;
   measured.diagonal = nearest.diagonal();
   measured.tolerance = nearest.tolerance();
+  if (!std::isfinite(measured.diagonal)) refuse_lengths();
   measured.nearest.resize(static_cast<std::size_t>(points.rows()));
   nearest.nearest(points, measured.nearest, progress_within(progress, kBuilt, kFound));
   measured.closed = encloses_space(topology);
@@ -31,6 +45,7 @@ SurfaceDistances measure_distances(const Topology& topology, const Scheme& schem
     }
   };
   parallel_for(points.rows(), sign_block, kDefaultBlock, progress_within(progress, kFound, 1.0));
+  if (!std::isfinite(measured.distances.squaredNorm())) refuse_lengths();
   return measured;
 }
 

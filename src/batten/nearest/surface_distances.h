@@ -16,7 +16,7 @@ struct SurfaceDistances {
 };
 
 /// control: V-by-3; points: N-by-3. A point within the tolerance counts as outside. Threaded; costs as NearestPoints.
-/// Throws what NearestPoints throws.
+/// Throws Error(NotFinite) where squares of lengths are not finite, and what NearestPoints throws.
 SurfaceDistances measure_distances(const Topology& topology, const Scheme& scheme, ConstValuesRef control,
                                    ConstValuesRef points, const Progress& progress = {});
 
