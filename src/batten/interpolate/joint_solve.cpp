@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "batten/error.h"
 #include "batten/interpolate/component_solve.h"
 #include "batten/mesh/unit_scale.h"
 #include "batten/refine/part_refinement.h"
