@@ -56,7 +56,7 @@ std::string mismatch_text(const CLI::App& verb, const CLI::ParseError& error) {
 
 /// "Could not convert: --seed = a,b,c"
 std::string conversion_text(const CLI::ParseError& error) {
-  const std::string text = error.what();
+  std::string text = error.what();
   const std::size_t option = text.find("--");
   const std::size_t equals = text.find(" = ");
   if (option == std::string::npos || equals == std::string::npos || equals < option) return text;

@@ -22,6 +22,7 @@ std::vector<float> gaussian_weights(double sigma) {
     sum += weights.back();
   }
   std::vector<float> result;
+  result.reserve(weights.size());
   for (const double weight : weights) result.push_back(static_cast<float>(weight / sum));
   return result;
 }
