@@ -2,12 +2,15 @@
 // library itself in one thread (bench/page_work.cpp). Medians, milliseconds: a part of docs/decisions/017-studio.md.
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 
 const [batten, pageWork] = process.argv.slice(2);
 const root = new URL('../../', import.meta.url);
 const folder = new URL('build/studio/studio/engine/', root);
+// Emscripten's own way into Node is older than modules.
+Object.assign(globalThis, { require: createRequire(import.meta.url), __dirname: folder.pathname });
 const { default: createEngine } = await import(new URL('engine.js', folder));
 const engine = await createEngine({ wasmBinary: readFileSync(new URL('engine.wasm', folder)) });
 const scratch = mkdtempSync(join(tmpdir(), 'studio-native-'));
