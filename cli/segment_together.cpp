@@ -11,14 +11,13 @@
 
 #include "batten/mesh/joined_mesh.h"
 #include "batten/volume/inside_volume.h"
+#include "batten/volume/label_mask.h"
 #include "cli/picture.h"
 #include "cli/progress.h"
 #include "cli/segment_output.h"
 
 namespace batten::cli {
 namespace {
-
-std::string label_text(double label) { return fmt::format("{:.15g}", label); }
 
 /// organ.obj of label 71 becomes organ-71.obj.
 std::string path_of_label(const std::string& path, double label) {

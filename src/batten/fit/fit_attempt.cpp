@@ -28,7 +28,7 @@ class Attempt {
     run_ = std::make_unique<FitRun>(made_->fitter, options, made_->report, filter, start.settled);
   }
 
-  /// The first rounds, which a watcher is not shown before the attempt is chosen where `hidden`.
+  /// The first rounds; `hidden`: a watcher is not shown them before the attempt is chosen.
   void approach(bool hidden, const Progress& progress) {
     if (hidden) run_->set_watch([this](const SurfaceFrame& frame) { frames_.add(frame); });
     go([&] { run_->approach(progress); });
@@ -94,7 +94,8 @@ FitAttempt make_fit(const PointCloud& cloud, const FitOptions& options, const Ou
   const bool doubtful = found && options.scheme.kind == SchemeKind::CatmullClark;
   Attempt sharp(start, cloud, options, filter, diameter, progress_within(progress, kBegun, 0.25));
   const double half = doubtful ? 0.4 : kApproached;
-  sharp.approach(doubtful, progress_within(progress, 0.25, half));
+  const bool hidden = doubtful && options.watch;
+  sharp.approach(hidden, progress_within(progress, 0.25, half));
   const Progress rest = progress_within(progress, kApproached, 1.0);
   if (!doubtful || sharp.is_cancelled()) return sharp.finish(options.watch, rest);
   FitOptions smooth_options = options;
@@ -103,7 +104,7 @@ FitAttempt make_fit(const PointCloud& cloud, const FitOptions& options, const Ou
     const FitBeginning other =
         find_beginning(cloud, filter, smooth_options, progress_within(progress, half, half + 0.05));
     Attempt smooth(other, cloud, smooth_options, filter, diameter, progress_within(progress, half + 0.05, half + 0.07));
-    smooth.approach(true, progress_within(progress, half + 0.07, kApproached));
+    smooth.approach(hidden, progress_within(progress, half + 0.07, kApproached));
     if (smooth.rms() < sharp.rms()) return smooth.finish(options.watch, rest);
     if (smooth.is_cancelled()) sharp.cancel();
   } catch (const Error& error) {

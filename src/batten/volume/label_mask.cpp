@@ -36,13 +36,6 @@ VoxelBox box_of(const Volume& volume, const Test& has) {
   return box;
 }
 
-std::string label_text(double label) {
-  std::string number = std::to_string(label);
-  number.erase(number.find_last_not_of('0') + 1);
-  if (number.back() == '.') number.pop_back();
-  return number;
-}
-
 [[noreturn]] void refuse(const Volume& volume, const std::vector<double>& labels) {
   constexpr std::size_t kMostListed = 12;
   std::set<float> there;
@@ -61,6 +54,13 @@ std::string label_text(double label) {
 }
 
 }  // namespace
+
+std::string label_text(double label) {
+  std::string number = std::to_string(label);
+  number.erase(number.find_last_not_of('0') + 1);
+  if (number.back() == '.') number.pop_back();
+  return number;
+}
 
 Volume label_mask(const Volume& volume, const std::vector<double>& labels, Index margin) {
   require_volume(volume);

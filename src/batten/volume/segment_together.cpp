@@ -125,15 +125,11 @@ std::vector<SurfaceMeeting> meetings_of(const Neighbours& neighbours) {
   return meetings.empty() ? meetings_of(neighbours, kMeasuredFaces) : meetings;
 }
 
-std::string number_text(double label) {
-  return label == std::floor(label) ? std::to_string(static_cast<long long>(label)) : std::to_string(label);
-}
-
 [[noreturn]] void refuse_meetings(const std::vector<SurfaceMeeting>& meetings, const std::vector<double>& labels) {
   const SurfaceMeeting& first = meetings.front();
   throw Error(ErrorCode::NotConverged,
-              "the surfaces of labels " + number_text(labels[first.first]) + " and " +
-                  number_text(labels[first.second]) + " still meet (" + std::to_string(meetings.size()) +
+              "the surfaces of labels " + label_text(labels[first.first]) + " and " + label_text(labels[first.second]) +
+                  " still meet (" + std::to_string(meetings.size()) +
                   " pairs of triangles) with the border moved inwards by one and a half voxels; take more control "
                   "points, or more smoothing");
 }
