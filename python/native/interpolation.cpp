@@ -23,7 +23,7 @@ const Words<Outcome> kOutcomes{{"reached", Outcome::Reached},
                                {"rounding", Outcome::Rounding},
                                {"least-squares", Outcome::LeastSquares},
                                {"not-reached", Outcome::NotReached}};
-const Words<ShapeEnergyKind> kEnergies{{"stretch", ShapeEnergyKind::Stretch},
+const Words<ShapeEnergyKind> kShapeEnergies{{"stretch", ShapeEnergyKind::Stretch},
                                        {"bending", ShapeEnergyKind::Bending},
                                        {"variation", ShapeEnergyKind::Variation}};
 
@@ -93,7 +93,7 @@ py::dict report_of(const FairReport& report) {
 py::tuple fair(const Topology& topology, const Scheme& scheme, const Doubles& targets, const Doubles& normals,
                const std::string& energy, double smoothing, int levels, const py::object& progress) {
   FairOptions options;
-  options.energy = choice_of(energy, kEnergies, "the energy");
+  options.energy = choice_of(energy, kShapeEnergies, "the energy");
   options.smoothing = smoothing;
   if (levels > 0) options.levels = levels;
   if (normals.size() > 0) options.normals = points_of(normals, "normals");
