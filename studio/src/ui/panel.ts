@@ -202,7 +202,7 @@ export class Panel {
     this.refreshers.push(() => void (spokes.hidden = !app.work || !isMedial(app.work)));
     const flat = tick('Without perspective', false, (checked) => void (stage.isFlat = checked));
     const views = (['front', 'right', 'top', 'home'] as const).map((view) => button(view[0]?.toUpperCase() + view.slice(1), () => stage.look(view)));
-    return section('Look', true, coloring.element, beside.element, seed.element, this.command((work) => (isTexture(app.coloring) ? textureCommand(work, app.coloring, app.seed) : null)), show(stage.control.group, 'Control mesh'), show(stage.points.object, 'Points'), spokes, flat.element, detail.element, tolerance.element, h('div', { class: 'buttons' }, ...views), h('div', { class: 'buttons' }, measured.element));
+    return section('Look', true, coloring.element, beside.element, seed.element, this.command((work) => (isTexture(app.coloring) ? textureCommand(work, app.coloring, app.seed) : null)), show(stage.control.group, 'Control mesh'), show(stage.points.object, 'Points'), show(stage.shadows, 'Shadow'), spokes, flat.element, detail.element, tolerance.element, h('div', { class: 'buttons' }, ...views), h('div', { class: 'buttons' }, measured.element));
   }
 
   private pointSection(): HTMLElement {

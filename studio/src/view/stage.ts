@@ -6,6 +6,7 @@ import { ArrowLayer } from './arrow_layer';
 import { CloudLayer } from './cloud_layer';
 import { ControlLayer } from './control_layer';
 import { PointsLayer } from './points_layer';
+import { ShadowLayer } from './shadow_layer';
 import { SpokeLayer } from './spoke_layer';
 import { SurfaceLayer } from './surface_layer';
 
@@ -26,6 +27,9 @@ const ROOM = 1.24;
 const FOOT = 0.13;
 const FEW_POINTS = 30;
 const BESIDE = 2;
+/** Between two shadows of a surface that moves, milliseconds; and how many times as long as one takes. */
+const SHADOW_PAUSE = 60;
+const SHADOW_SHARE = 10;
 /** About the size of a point's disc. */
 const SLACK = 0.02;
 
@@ -37,8 +41,13 @@ export class Stage {
   readonly cloud = new CloudLayer();
   readonly arrows = new ArrowLayer();
   readonly spokes = new SpokeLayer();
+  readonly shadows = new THREE.Group();
   /** A second surface, to the right of the first. */
   private readonly second = new SurfaceLayer();
+  private readonly shadow = new ShadowLayer();
+  private readonly secondShadow = new ShadowLayer();
+  private waiting = 0;
+  private pause = SHADOW_PAUSE;
   private readonly renderer: THREE.WebGLRenderer;
   private readonly scene = new THREE.Scene();
   private readonly perspective = new THREE.PerspectiveCamera(32, 1, 0.01, 100);
@@ -55,7 +64,8 @@ export class Stage {
     this.canvas = canvas;
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
-    this.scene.add(this.surface.mesh, this.control.group, this.points.object, this.cloud.object, this.arrows.group, this.spokes.object, this.second.mesh);
+    this.scene.add(this.surface.mesh, this.control.group, this.points.object, this.cloud.object, this.arrows.group, this.spokes.object, this.second.mesh, this.shadows);
+    this.shadows.add(this.shadow.object, this.secondShadow.object);
     this.second.clear();
     this.controls = this.steer(this.perspective);
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement ?? canvas);
@@ -96,6 +106,24 @@ export class Stage {
 
   touch(): void {
     this.dirty = true;
+  }
+
+  /** At once, or soon where the surface moves on and on. */
+  private castShadows(): void {
+    window.clearTimeout(this.waiting);
+    this.waiting = 0;
+    const begin = performance.now();
+    for (const [layer, shadow] of [[this.surface, this.shadow], [this.second, this.secondShadow]] as const) {
+      const { geometry, position, visible } = layer.mesh;
+      const points = geometry.getAttribute('position') as THREE.BufferAttribute | undefined;
+      if (visible && points && geometry.index) shadow.cast(points.array, geometry.index.array, this.up, position);
+      else shadow.clear();
+    }
+    this.pause = Math.max(SHADOW_PAUSE, SHADOW_SHARE * (performance.now() - begin));
+    this.touch();
+  }
+  private castShadowsSoon(): void {
+    if (this.waiting === 0) this.waiting = window.setTimeout(() => this.castShadows(), this.pause);
   }
 
   private resize(): void {
@@ -145,6 +173,7 @@ export class Stage {
     this.orthographic.far = this.sphere.radius * 100;
     this.controls.updateCameraUp();
     this.resize();
+    this.castShadows();
     this.look('home', false);
   }
 
@@ -223,7 +252,7 @@ export class Stage {
   draw(drawing: Drawing): void {
     this.surface.draw(drawing);
     this.control.draw(drawing);
-    this.touch();
+    this.castShadows();
   }
   /** Shows another surface beside the first, or with null none. */
   drawBeside(drawing: Drawing | null): void {
@@ -233,13 +262,14 @@ export class Stage {
     const across = new THREE.Vector3().crossVectors(new THREE.Vector3(...this.up), this.away('home')).normalize();
     this.second.mesh.position.copy(across.multiplyScalar(BESIDE * this.sphere.radius));
     if (was !== this.second.mesh.visible) this.look('home');
-    this.touch();
+    this.castShadows();
   }
 
   reshape(change: Change): void {
     if (change.triangles) this.surface.draw({ ...change, triangles: change.triangles });
     else this.surface.reshape(change);
     this.control.move(change.control, change.moved);
+    this.castShadowsSoon();
     this.touch();
   }
   /** origins: Work.origins. */
@@ -259,7 +289,7 @@ export class Stage {
     this.surface.clear();
     this.control.clear();
     this.second.clear();
-    this.touch();
+    this.castShadows();
   }
 
   /** In pixels of the page. */
