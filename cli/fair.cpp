@@ -39,8 +39,8 @@ FairOptions options_of(const FairArguments& arguments, double diagonal) {
 std::string energy_text(const FairReport& report) {
   if (!(report.plain_energy > 0.0) || !std::isfinite(report.energy / report.plain_energy))
     return fmt::format("{:.4g}", report.energy);
-  return fmt::format("{:.4g}, of the plain surface {:.4g} ({:+.0f} %)", report.energy, report.plain_energy,
-                     100.0 * (report.energy / report.plain_energy - 1.0));
+  const double percent = std::round(100.0 * (report.energy / report.plain_energy - 1.0)) + 0.0;  // no minus before 0
+  return fmt::format("{:.4g}, of the plain surface {:.4g} ({:+.0f} %)", report.energy, report.plain_energy, percent);
 }
 
 void print_table(const Topology& topology, const Scheme& scheme, const FairOptions& options, const FairMesh& result,

@@ -19,6 +19,10 @@ int run_repair(const RepairArguments& arguments) {
   stages.finish("read");
   const RepairResult repaired = repair(mesh, arguments.options, ProgressBar("repairing", common.quiet).callback());
   stages.finish("repair");
+  if (mesh.face_count() > 0 && repaired.mesh.face_count() == 0)
+    throw Error(ErrorCode::DegenerateFace,
+                fmt::format("{}: no face is left of {}, and nothing was written; none has three different vertices",
+                            common.input, mesh.face_count()));
   write_output(common, repaired.mesh, up_axis_for(common, mesh));
   const std::vector<std::string> lost = tell_losses(common, repaired.mesh);
   stages.finish("write");

@@ -46,6 +46,13 @@ TEST_F(Files, AnOutputThatIsAnInputIsRefused) {
   expect_refused("convert - --input-format obj -o mesh.obj < mesh.obj", why);
 }
 
+TEST_F(Files, AnEmptyMeshIsNotWrittenAsARepairedOne) {
+  write("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 2\n");
+  expect_refused("repair line.obj -o none.obj", "no face is left of 1", 1);
+  EXPECT_FALSE(fs::exists(path("none.obj")));
+  expect_refused("convert mesh.obj -o ''", "name is empty", 1);
+}
+
 TEST_F(Files, AMaterialFileIsNamedFromTheOutput) {
   fs::create_directory(path("in"));
   write("in/square.obj", "mtllib paint.mtl\nmtllib missing.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl red\nf 1 2 3\n");

@@ -118,6 +118,8 @@ const Format& find_format(const std::string& path, const std::string& asked) {
     if (wanted == format.extension) return format;
     known += std::string(known.empty() ? "" : ", ") + format.extension;
   }
+  if (path.empty())
+    throw Error(ErrorCode::UnknownFormat, "a file's name is empty; give one that ends with one of " + known);
   const std::string what = wanted.empty() ? "no file type" : "the file type '" + wanted + "' is unknown";
   throw Error(ErrorCode::UnknownFormat,
               (path == "-" ? "standard input or output" : path) + ": " + what + "; give one of " + known);
