@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "batten/parallel/threads.h"
 #include "batten/solve/krylov.h"
 #include "support/errors.h"
 #include "support/values.h"
@@ -67,18 +68,54 @@ Matrix bending_of_a_plate(int side) {
   return laplacian * laplacian;
 }
 
-/// The inverse of what the factor solves, next to the matrix.
-TEST(IncompleteFactor, EqualsTheMatrixWhereThatHasEntries) {
-  const Matrix matrix = bending_of_a_plate(6);
+/// Next to the matrix, the inverse of what a factor solves. Returns how far they are apart where the matrix has no
+/// entry.
+double expect_equal_entries(const Matrix& matrix, const IncompleteFactor& factor) {
   Values inverse;
-  IncompleteFactor(matrix).solve(Values::Identity(36, 36), inverse);
-  const Eigen::MatrixXd product = Eigen::MatrixXd(inverse).inverse();
-  for (int i = 0; i < 36; ++i) {
+  factor.solve(Values::Identity(matrix.rows(), matrix.rows()), inverse);
+  Eigen::MatrixXd rest = Eigen::MatrixXd(inverse).inverse();
+  for (int i = 0; i < static_cast<int>(matrix.rows()); ++i) {
     for (Matrix::InnerIterator entry(matrix, i); entry; ++entry) {
-      EXPECT_NEAR(product(i, entry.col()), entry.value(), 1e-11) << i << ", " << entry.col();
+      EXPECT_NEAR(rest(i, entry.col()), entry.value(), 1e-11) << i << ", " << entry.col();
+      rest(i, entry.col()) = 0.0;
     }
   }
-  EXPECT_GT((product - Eigen::MatrixXd(matrix)).cwiseAbs().maxCoeff(), 1e-3);  // elsewhere it does not
+  return rest.cwiseAbs().maxCoeff();
+}
+
+TEST(IncompleteFactor, EqualsTheMatrixWhereThatHasEntries) {
+  const Matrix matrix = bending_of_a_plate(6);
+  EXPECT_GT(expect_equal_entries(matrix, IncompleteFactor(matrix)), 1e-3);
+}
+
+/// Rows between two parts come after both, which fills in: there, and only there, the factor differs from the matrix.
+TEST(IncompleteFactor, EqualsTheMatrixWhereThatHasEntriesInParts) {
+  Matrix matrix = bending_of_a_line(90);
+  for (int i = 0; i < 90; ++i) matrix.coeffRef(i, i) += 2.0;
+  const IncompleteFactor factor(matrix, 10);
+  EXPECT_GT(factor.part_count(), 4);
+  EXPECT_GT(expect_equal_entries(matrix, factor), 1e-3);
+}
+
+TEST(IncompleteFactor, HasOnePartWhereTheBandIsWide) {
+  Matrix matrix = bending_of_a_line(90);
+  matrix.insert(0, 89) = 0.01;
+  matrix.insert(89, 0) = 0.01;
+  matrix.makeCompressed();
+  EXPECT_EQ(IncompleteFactor(matrix, 10).part_count(), 1);
+}
+
+TEST(IncompleteFactor, DoesNotDependOnTheNumberOfThreads) {
+  const Matrix matrix = bending_of_a_line(9000);
+  const Values right = test::random_values(9000, 3);
+  Values expected;
+  const IncompleteFactor factor(matrix);
+  EXPECT_GT(factor.part_count(), 2);
+  factor.solve(right, expected);
+  const ThreadLimit one(1);
+  Values x;
+  IncompleteFactor(matrix).solve(right, x);
+  EXPECT_EQ(x, expected);
 }
 
 /// Positive definite, and yet its factor without what fills in would have the root of a negative number (Kershaw 1978).

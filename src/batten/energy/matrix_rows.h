@@ -2,10 +2,11 @@
 #pragma once
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <mutex>
-#include <numeric>
 #include <span>
 #include <string>
 #include <utility>
@@ -14,28 +15,31 @@
 #include "batten/buffer.h"
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
+#include "batten/progress.h"
 
 namespace batten {
 
 using EnergyMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// One row at a time: adds up entries of the same column.
+/// One row at a time: adds up entries of the same column. Which columns it has stands in bits, and which words of these
+/// are not zero in bits again, so that columns come out ascending without a sort.
 class RowSum {
  public:
-  explicit RowSum(Index columns) : places_(static_cast<std::size_t>(columns), kNone) {}
+  explicit RowSum(Index columns)
+      : places_(static_cast<std::size_t>(columns), kNone),
+        bits_(static_cast<std::size_t>(columns) / 64 + 1, 0),
+        words_(bits_.size() / 64 + 1, 0),
+        first_word_(static_cast<Index>(words_.size())) {}
 
   /// Adds weight(j) at columns[j], for each j.
   template <typename Weight>
   void add(std::span<const Index> columns, const Weight& weight) {
-    if (columns_.size() < count_ + columns.size()) {
-      columns_.resize(2 * (count_ + columns.size()));
-      values_.resize(columns_.size());
-    }
+    if (values_.size() < count_ + columns.size()) values_.resize(2 * (count_ + columns.size()));
     for (std::size_t j = 0; j < columns.size(); ++j) {
       Index& place = places_[columns[j]];
       if (place == kNone) {
         place = static_cast<Index>(count_);
-        columns_[count_] = columns[j];
+        mark(columns[j]);
         values_[count_++] = weight(static_cast<Index>(j));
       } else {
         values_[place] += weight(static_cast<Index>(j));
@@ -48,19 +52,41 @@ class RowSum {
   /// Calls visit(column, value), columns ascending, and forgets the row.
   template <typename Visit>
   void take(const Visit& visit) {
-    std::sort(columns_.begin(), columns_.begin() + static_cast<std::ptrdiff_t>(count_));
-    for (std::size_t i = 0; i < count_; ++i) {
-      visit(columns_[i], values_[places_[columns_[i]]]);
-      places_[columns_[i]] = kNone;
+    for (Index w = first_word_; w <= last_word_; ++w) {
+      for_bits(words_[w], 64 * w, [&](Index word) {
+        for_bits(bits_[word], 64 * word, [&](Index column) {
+          visit(column, values_[places_[column]]);
+          places_[column] = kNone;
+        });
+      });
     }
     count_ = 0;
+    first_word_ = static_cast<Index>(words_.size());
+    last_word_ = -1;
   }
 
  private:
   static constexpr Index kNone = -1;
-  Buffer<Index> places_;   ///< of each column among those of the row, or kNone
-  Buffer<Index> columns_;  ///< in the order in which they came
+
+  void mark(Index column) {
+    const Index word = column / 64;
+    bits_[word] |= std::uint64_t{1} << (column % 64);
+    words_[word / 64] |= std::uint64_t{1} << (word % 64);
+    first_word_ = std::min(first_word_, word / 64);
+    last_word_ = std::max(last_word_, word / 64);
+  }
+  /// Calls visit(first + b) for each bit b, ascending, and clears them.
+  template <typename Visit>
+  static void for_bits(std::uint64_t& bits, Index first, const Visit& visit) {
+    for (; bits != 0; bits &= bits - 1) visit(first + static_cast<Index>(std::countr_zero(bits)));
+  }
+
+  Buffer<Index> places_;  ///< of each column among those of the row, or kNone
   Buffer<double> values_;
+  Buffer<std::uint64_t> bits_;
+  Buffer<std::uint64_t> words_;
+  Index first_word_;
+  Index last_word_ = -1;
   std::size_t count_ = 0;
 };
 
@@ -90,51 +116,88 @@ class ScratchPool {
   std::vector<std::unique_ptr<Scratch>> free_;
 };
 
-/// The matrix whose row r is what fill(r, scratch) has added to scratch.row. make() returns a new scratch. Threaded,
-/// the same bits for any number of threads. Memory: twice the matrix. Throws Error(TooLarge), Error(Cancelled).
-template <typename Scratch, typename Make, typename Fill>
-EnergyMatrix matrix_of_rows(Index rows, Index columns, const Make& make, const Fill& fill, const Progress& progress) {
+/// Where the numbers of sparse rows go; no values where only the columns are wanted.
+struct RowsPlace {
+  int* columns;
+  double* values;
+};
+
+/// Rows that fill(r, scratch) has added to scratch.row. make() returns a new scratch. starts: where the rows begin, and
+/// the end of the last. grow(count, guess) makes room for `count` entries, of about `guess` in the end, and keeps those
+/// that are there. Threaded, the same bits for any number of threads. Memory besides the rows: those of some 16,000.
+/// Throws Error(TooLarge), Error(Cancelled).
+template <typename Scratch, typename Make, typename Fill, typename Grow>
+void collect_rows(Index rows, const Make& make, const Fill& fill, bool with_values, Buffer<std::size_t>& starts,
+                  const Grow& grow, const Progress& progress) {
   constexpr std::ptrdiff_t kBlock = 512;
+  constexpr Index kRowsAtOnce = 32 * kBlock;
   struct Block {
     Buffer<int> columns;
     Buffer<double> values;
   };
-  std::vector<Block> blocks(static_cast<std::size_t>(block_count(rows, kBlock)));
-  Buffer<std::size_t> starts(static_cast<std::size_t>(rows) + 1, 0);
+  std::vector<Block> blocks(static_cast<std::size_t>(block_count(std::min(rows, kRowsAtOnce), kBlock)));
+  starts.assign(static_cast<std::size_t>(rows) + 1, 0);
   ScratchPool<Scratch> pool;
-  parallel_for(
-      rows,
-      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-        std::unique_ptr<Scratch> scratch = pool.take(make);
-        Block& block = blocks[begin / kBlock];
-        for (auto r = static_cast<Index>(begin); r < static_cast<Index>(end); ++r) {
-          fill(r, *scratch);
-          starts[r + 1] = scratch->row.size();
-          scratch->row.take([&](Index column, double value) {
-            block.columns.push_back(column);
-            block.values.push_back(value);
-          });
-        }
-        pool.give_back(std::move(scratch));
-      },
-      kBlock, progress);
-  std::partial_sum(starts.begin(), starts.end(), starts.begin());
-  if (starts.back() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
-    throw Error(ErrorCode::TooLarge, "the matrix has " + std::to_string(starts.back()) +
-                                         " entries, more than 2^31 - 1; use SurfaceEnergy::apply instead");
+  for (Index first = 0; first < rows; first += kRowsAtOnce) {
+    const Index last = std::min(rows, first + kRowsAtOnce);
+    parallel_for(
+        last - first,
+        [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+          std::unique_ptr<Scratch> scratch = pool.take(make);
+          Block& block = blocks[begin / kBlock];
+          block.columns.clear();
+          block.values.clear();
+          for (Index r = first + static_cast<Index>(begin); r < first + static_cast<Index>(end); ++r) {
+            fill(r, *scratch);
+            starts[r + 1] = scratch->row.size();
+            scratch->row.take([&](Index column, double value) {
+              block.columns.push_back(column);
+              if (with_values) block.values.push_back(value);
+            });
+          }
+          pool.give_back(std::move(scratch));
+        },
+        kBlock, progress_within(progress, static_cast<double>(first) / rows, static_cast<double>(last) / rows));
+    for (Index r = first; r < last; ++r) starts[r + 1] += starts[r];
+    const std::size_t count = starts[last];
+    if (count > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
+      throw Error(ErrorCode::TooLarge, "the matrix has " + std::to_string(count) +
+                                           " entries or more, beyond 2^31 - 1; use SurfaceEnergy::apply instead");
+    }
+    const RowsPlace place = grow(count, static_cast<std::size_t>(1.05 * static_cast<double>(count) / last * rows));
+    parallel_for(
+        last - first,
+        [&](std::ptrdiff_t begin, std::ptrdiff_t /*end*/) {
+          const Block& block = blocks[begin / kBlock];
+          const std::size_t start = starts[first + begin];
+          std::copy(block.columns.begin(), block.columns.end(), place.columns + start);
+          if (with_values) std::copy(block.values.begin(), block.values.end(), place.values + start);
+        },
+        kBlock);
   }
-  EnergyMatrix matrix(rows, columns);
+}
+
+/// Gives a matrix the beginnings of its rows.
+inline void set_starts(const Buffer<std::size_t>& starts, EnergyMatrix& matrix) {
   matrix.resizeNonZeros(static_cast<Eigen::Index>(starts.back()));
-  for (Index r = 0; r <= rows; ++r) matrix.outerIndexPtr()[r] = static_cast<int>(starts[r]);
-  parallel_for(
-      rows,
-      [&](std::ptrdiff_t begin, std::ptrdiff_t /*end*/) {
-        Block& block = blocks[begin / kBlock];
-        std::copy(block.columns.begin(), block.columns.end(), matrix.innerIndexPtr() + starts[begin]);
-        std::copy(block.values.begin(), block.values.end(), matrix.valuePtr() + starts[begin]);
-        block = Block();
+  for (std::size_t r = 0; r < starts.size(); ++r) matrix.outerIndexPtr()[r] = static_cast<int>(starts[r]);
+}
+
+/// The matrix whose rows these are.
+template <typename Scratch, typename Make, typename Fill>
+EnergyMatrix matrix_of_rows(Index rows, Index columns, const Make& make, const Fill& fill, const Progress& progress) {
+  EnergyMatrix matrix(rows, columns);
+  Buffer<std::size_t> starts;
+  collect_rows<Scratch>(
+      rows, make, fill, true, starts,
+      [&](std::size_t count, std::size_t guess) {
+        if (static_cast<std::size_t>(matrix.data().allocatedSize()) < count) {
+          matrix.resizeNonZeros(static_cast<Eigen::Index>(std::max(count, guess)));
+        }
+        return RowsPlace{matrix.innerIndexPtr(), matrix.valuePtr()};
       },
-      kBlock);
+      progress);
+  set_starts(starts, matrix);
   return matrix;
 }
 

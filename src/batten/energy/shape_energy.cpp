@@ -62,7 +62,8 @@ struct ShapeEnergy::Parts {
   ShapeEnergyKind kind;
   FaceElements elements;
   std::vector<JetTable> tables;
-  Matrix pattern;  ///< K with zeros for entries
+  Buffer<std::size_t> row_starts;  ///< of K
+  Buffer<int> columns;             ///< of K's entries
 
   Parts(const SurfacePatches& patches_in, ShapeEnergyKind kind_in, const QuadratureOptions& options,
         const Progress& progress)
@@ -74,12 +75,18 @@ struct ShapeEnergy::Parts {
     for (const JetTable& table : tables) points.push_back(table.points);
     elements.list_vertices(patches, points);
     const Index count = patches.base().vertex_count();
-    pattern = matrix_of_rows<PatternScratch>(
-        count, count, [&] { return std::make_unique<PatternScratch>(PatternScratch{RowSum(count)}); },
+    collect_rows<PatternScratch>(
+        count, [&] { return std::make_unique<PatternScratch>(PatternScratch{RowSum(count)}); },
         [&](Index vertex, PatternScratch& scratch) {
           for (const FaceElements::Use& use : elements.uses(vertex)) {
             scratch.row.add(elements.vertices(use.element), [](Index) { return 0.0; });
           }
+        },
+        false, row_starts,
+        [&](std::size_t entries, std::size_t guess) {
+          columns.reserve(std::max(entries, guess));
+          columns.resize(entries);
+          return RowsPlace{columns.data(), nullptr};
         },
         progress);
   }
@@ -90,6 +97,7 @@ struct ShapeEnergy::Parts {
       throw Error(ErrorCode::BadShape, "a reference surface needs control points of three columns");
     require_finite(points, "control points");
   }
+  Matrix zeros() const;
   void find_matrices(Index begin, Index end, ConstValuesRef reference, std::span<const double> face_factors,
                      ElementMatrices& matrices) const;
   Buffer<Index> rows_of(Index begin, Index end, Buffer<std::uint8_t>& marks) const;
@@ -101,6 +109,18 @@ struct ShapeEnergy::Parts {
     require_coefficients(face_factors, patches.topology().face_count(), "factor");
   }
 };
+
+/// K with zeros for entries.
+ShapeEnergy::Matrix ShapeEnergy::Parts::zeros() const {
+  const auto count = static_cast<Index>(row_starts.size()) - 1;
+  Matrix matrix(count, count);
+  set_starts(row_starts, matrix);
+  parallel_for(static_cast<std::ptrdiff_t>(columns.size()), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    std::copy(columns.begin() + begin, columns.begin() + end, matrix.innerIndexPtr() + begin);
+    std::fill(matrix.valuePtr() + begin, matrix.valuePtr() + end, 0.0);
+  });
+  return matrix;
+}
 
 void ShapeEnergy::Parts::find_matrices(Index begin, Index end, ConstValuesRef reference,
                                        std::span<const double> face_factors, ElementMatrices& matrices) const {
@@ -168,7 +188,7 @@ ShapeEnergy::Matrix ShapeEnergy::matrix(ConstValuesRef reference, std::span<cons
                                         const Progress& progress) const {
   parts_->require_base_points(reference);
   parts_->require_factors(face_factors);
-  Matrix matrix = parts_->pattern;
+  Matrix matrix = parts_->zeros();
   const auto columns = static_cast<std::size_t>(matrix.cols());
   ElementMatrices matrices;
   Buffer<std::uint8_t> marks(columns, 0);

@@ -28,8 +28,9 @@ constexpr int kMostRounds = 20;
 /// In diagonals, about: control points of a sound surface stay nearer. Others are of a system that was nearly singular,
 /// and their surface may have lost its tangent planes and with them its energy.
 constexpr double kFarthest = 20.0;
-/// Of the rounds before the last, which only give lengths.
-constexpr double kReferenceTolerance = 1e-4;
+/// Where energies by a reference's lengths are within this share of those by a surface's own, the next round would gain
+/// a thousandth (docs/decisions/011-fair-solver.md).
+constexpr double kSameLengths = 0.01;
 
 void require_options(const FairOptions& options, Index vertices) {
   const auto refuse = [](const std::string& what) { throw Error(ErrorCode::BadArgument, what); };
@@ -146,9 +147,14 @@ class FairSolve {
     std::optional<Values> control = {};
     double level = 0.0;
   };
+  /// What a round comes to.
+  struct Round {
+    bool improved;
+    bool settled;  ///< another one, in the lengths of the best, would hardly change it
+  };
   double objective(const Values& control) const;
   bool improve(const Values& least, Best& best) const;
-  bool search(const Values& reference, double tolerance, Best& best, FairReport& report, const Progress& progress);
+  Round search(const Values& reference, Best& best, FairReport& report, const Progress& progress);
   void turn_opposed(const Values& model, Best& best, FairReport& report, const Progress& progress);
 
   const Values& targets_;
@@ -183,18 +189,26 @@ bool FairSolve::improve(const Values& least, Best& best) const {
   return false;
 }
 
-/// A round: the least of the quadratic energy in the lengths of `reference`. False where it is no better.
-bool FairSolve::search(const Values& reference, double tolerance, Best& best, FairReport& report,
-                       const Progress& progress) {
-  const ShapeEnergy::Matrix matrix = energy_.matrix(reference, progress_within(progress, 0.0, 0.3));
-  const StopRule stop{tolerance, options_.max_iterations, progress_within(progress, 0.4, 0.95)};
+/// A round: the least of the quadratic energy in the lengths of `reference`. It settles the surface where these suit
+/// both what the round started from and what it found.
+FairSolve::Round FairSolve::search(const Values& reference, Best& best, FairReport& report, const Progress& progress) {
+  const StopRule stop{options_.tolerance, options_.max_iterations, progress_within(progress, 0.4, 0.95)};
   Values unknowns = system_.unknowns(best.control ? *best.control : reference);
-  report.solve.append(system_.minimise(matrix, targets_, normals_, stop, unknowns), ", ");
+  FairSystem::Least found = system_.minimise(energy_.matrix(reference, progress_within(progress, 0.0, 0.3)), targets_,
+                                             normals_, stop, unknowns);
+  report.solve.append(found.solve, ", ");
   Values least = system_.control(unknowns, targets_);
-  if (best.control) return improve(least, best);
-  best = {std::move(least), 0.0};
-  best.level = objective(*best.control);
-  return true;
+  if (!best.control) {
+    best = {std::move(least), 0.0};
+    best.level = objective(*best.control);
+    return {true, false};
+  }
+  const auto suits = [&](double by_reference) {
+    return std::abs(by_reference - best.level) <= kSameLengths * best.level;
+  };
+  const bool suits_start = suits(found.start);
+  const bool improved = improve(least, best);
+  return {improved, improved && suits_start && suits(found.end)};
 }
 
 /// The conditions of normals also allow the opposite ones. Where a surface has these, it gets the model's tangents, and
@@ -208,7 +222,7 @@ void FairSolve::turn_opposed(const Values& model, Best& best, FairReport& report
     normals_.meet(unknowns);
     best.control = system_.control(unknowns, targets_);
     best.level = objective(*best.control);
-    if (time < kMostTimes) search(model, options_.tolerance, best, report, progress);
+    if (time < kMostTimes) search(model, best, report, progress);
   }
 }
 
@@ -223,17 +237,17 @@ Values FairSolve::run(const Values& lengths, const std::optional<Values>& plain,
   }
   report.kept_plain = plain.has_value();
   for (int round = 0; round < options_.rounds; ++round) {
-    const bool is_last = round + 1 == options_.rounds;
-    const double tolerance = is_last ? options_.tolerance : std::max(options_.tolerance, kReferenceTolerance);
     const Values reference = round == 0 ? lengths : *best.control;
     const Progress of_round =
         progress_within(progress, static_cast<double>(round) / options_.rounds, (round + 1.0) / options_.rounds);
-    if (search(reference, tolerance, best, report, of_round)) {
+    const Round found = search(reference, best, report, of_round);
+    if (found.improved) {
       report.kept_plain = false;
     } else if (round > 0) {
       break;
     }
     turn_opposed(lengths, best, report, progress_within(of_round, 1.0, 1.0));
+    if (found.settled) break;
   }
   report.energy = position_weights_.size() == 0 ? best.level : energy_.energy(*best.control);
   return system_.control(system_.unknowns(*best.control), targets_);

@@ -33,8 +33,9 @@ struct FairOptions {
   /// Empty: none. The surface's tangent plane becomes perpendicular to the normal. Vertices of creases and corners,
   /// which have several normals or none, are left out.
   Values normals = {};
-  int rounds = 2;           ///< references one after the other, 1 to 20
-  double tolerance = 1e-5;  ///< the energy is within its square, about, of the least, relative to the plain one's
+  /// References one after the other, 1 to 20 at most: fewer where a reference's lengths suit the surface to 1 %.
+  int rounds = 2;
+  double tolerance = 1e-4;  ///< the energy is within its square, about, of the least, relative to the plain one's
   int max_iterations = 2000;
 };
 
@@ -62,9 +63,9 @@ struct FairInterpolant {
 };
 
 /// targets: V-by-3, row i for vertex i, finite. Catmull-Clark and Loop. Without smoothing and normals the energy is at
-/// most that of the plain surface. Some 40 microseconds a vertex and round with one refinement, 250 with two; more
-/// where many vertices are irregular. Throws Error(BadArgument) for the Butterflies, BoundaryRule::None and options out
-/// of range, Error(NotTriangles, BadShape, NotFinite, TooLarge, Cancelled).
+/// most that of the plain surface. Some 40 microseconds of processor time a vertex and round with one refinement, 200
+/// with two; more where many vertices are irregular. Throws Error(BadArgument) for the Butterflies, BoundaryRule::None
+/// and options out of range, Error(NotTriangles, BadShape, NotFinite, TooLarge, Cancelled).
 FairInterpolant interpolate_fairly(const Topology& topology, const Scheme& scheme, ConstValuesRef targets,
                                    const FairOptions& options = {}, const Progress& progress = {});
 

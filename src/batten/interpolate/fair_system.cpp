@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "batten/energy/congruence.h"
+#include "batten/mesh/vertex_order.h"
 #include "batten/refine/sparse_rows.h"
 #include "batten/solve/cholesky_factor.h"
 #include "batten/solve/incomplete_factor.h"
@@ -40,7 +41,9 @@ FairSystem::FairSystem(const LimitMatrix& limit, Index original_count, Scalars p
   const Index count = limit.topology().vertex_count();
   unknown_of_.assign(static_cast<std::size_t>(count), -1);
   Index unknowns = 0;
-  for (Index v = passes ? original_count : 0; v < count; ++v) unknown_of_[v] = unknowns++;
+  for (const Index v : breadth_first_vertices(limit.topology())) {
+    if (!passes || v >= original_count) unknown_of_[v] = unknowns++;
+  }
   std::vector<Eigen::Triplet<double>> entries;
   for (Index v = 0; v < count; ++v) {
     if (v >= original_count) {
@@ -75,15 +78,16 @@ Values FairSystem::unknowns(ConstValuesRef control) const {
   }
   // Positions: the rows of T the other way.
   for (Index v = 0; v < static_cast<Index>(position_weights_.size()); ++v) {
+    const Index unknown = unknown_of_[v];
     double own = 1.0;
     for (Matrix::InnerIterator entry(to_control_, v); entry; ++entry) {
-      if (entry.col() == v) {
+      if (entry.col() == unknown) {
         own = entry.value();
       } else {
-        result.row(v) -= entry.value() * result.row(entry.col());
+        result.row(unknown) -= entry.value() * result.row(entry.col());
       }
     }
-    result.row(v) /= own;
+    result.row(unknown) /= own;
   }
   return result;
 }
@@ -168,8 +172,8 @@ SolveReport ConstrainedLeast::solve_multipliers(const CholeskyFactor& factor, in
 }  // namespace
 
 /// T^T K T y + W y = -T^T K C q + W q; solved for the step from the start, so that large coordinates cost no digits.
-SolveReport FairSystem::minimise(const Matrix& energy, ConstValuesRef targets, const FairNormals& normals,
-                                 const StopRule& stop, Values& unknowns) const {
+FairSystem::Least FairSystem::minimise(Matrix energy, ConstValuesRef targets, const FairNormals& normals,
+                                       const StopRule& stop, Values& unknowns) const {
   normals.meet(unknowns);
   Matrix reduced = congruence(energy, to_control_);
   Values gradient;
@@ -181,9 +185,13 @@ SolveReport FairSystem::minimise(const Matrix& energy, ConstValuesRef targets, c
     level = start.cwiseProduct(of_control).sum();
     multiply(transposed_, of_control, gradient);
   }
-  for (Index i = 0; i < static_cast<Index>(position_weights_.size()); ++i) {
-    reduced.coeffRef(i, i) += position_weights_[i];
-    gradient.row(i) += position_weights_[i] * (unknowns.row(i) - targets.row(i));
+  Matrix().swap(energy);  // an assignment would keep its memory
+  double start_sum = level;
+  for (Index v = 0; v < static_cast<Index>(position_weights_.size()); ++v) {
+    const Index i = unknown_of_[v];
+    reduced.coeffRef(i, i) += position_weights_[v];
+    gradient.row(i) += position_weights_[v] * (unknowns.row(i) - targets.row(v));
+    start_sum += position_weights_[v] * (unknowns.row(i) - targets.row(v)).squaredNorm();
   }
   hold_unused(reduced);
   StopRule within = stop;
@@ -214,7 +222,10 @@ SolveReport FairSystem::minimise(const Matrix& energy, ConstValuesRef targets, c
   }
   unknowns += step;
   normals.meet(unknowns);
-  return report;
+  Values bent;
+  multiply(reduced, step, bent);
+  const double fall = (bent + 2.0 * gradient).cwiseProduct(step).sum();
+  return {start_sum, start_sum + fall, std::move(report)};
 }
 
 }  // namespace batten

@@ -30,10 +30,16 @@ class FairSystem {
   /// T y + C q.
   Values control(const Values& unknowns, ConstValuesRef targets) const;
 
-  /// Makes p^T K p, plus the weighted squares of distances to the targets, least over the unknowns that keep the
-  /// normals. energy: K. unknowns: the start and the result.
-  SolveReport minimise(const Matrix& energy, ConstValuesRef targets, const FairNormals& normals, const StopRule& stop,
-                       Values& unknowns) const;
+  /// What minimise() came to: p^T K p plus the weighted squares of distances to the targets.
+  struct Least {
+    double start;
+    double end;
+    SolveReport solve;
+  };
+  /// Makes that sum least over the unknowns that keep the normals. energy: K, which is given up early to save memory.
+  /// unknowns: the start and the result.
+  Least minimise(Matrix energy, ConstValuesRef targets, const FairNormals& normals, const StopRule& stop,
+                 Values& unknowns) const;
 
  private:
   Matrix to_control_;

@@ -10,7 +10,9 @@ namespace batten {
 void multiply(const Eigen::SparseMatrix<double, Eigen::RowMajor>& matrix, const Values& values, Values& result) {
   constexpr std::ptrdiff_t kRowBlock = 512;
   Buffer<Double4> points(static_cast<std::size_t>(values.rows()));
-  for (Eigen::Index i = 0; i < values.rows(); ++i) points[i] = Double4{values(i, 0), values(i, 1), values(i, 2), 0.0};
+  parallel_for(values.rows(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (std::ptrdiff_t i = begin; i < end; ++i) points[i] = Double4{values(i, 0), values(i, 1), values(i, 2), 0.0};
+  });
   result.resize(matrix.rows(), 3);
   const int* const columns = matrix.innerIndexPtr();
   const double* const weights = matrix.valuePtr();
