@@ -62,7 +62,8 @@ struct ShapeEnergy::Parts {
   ShapeEnergyKind kind;
   FaceElements elements;
   std::vector<JetTable> tables;
-  Matrix pattern;  ///< K with zeros for entries
+  Buffer<int> starts;   ///< of K's rows
+  Buffer<int> columns;  ///< of its entries
 
   Parts(const SurfacePatches& patches_in, ShapeEnergyKind kind_in, const QuadratureOptions& options,
         const Progress& progress)
@@ -74,7 +75,7 @@ struct ShapeEnergy::Parts {
     for (const JetTable& table : tables) points.push_back(table.points);
     elements.list_vertices(patches, points);
     const Index count = patches.base().vertex_count();
-    pattern = matrix_of_rows<PatternScratch>(
+    const Matrix pattern = matrix_of_rows<PatternScratch>(
         count, count, [&] { return std::make_unique<PatternScratch>(PatternScratch{RowSum(count)}); },
         [&](Index vertex, PatternScratch& scratch) {
           for (const FaceElements::Use& use : elements.uses(vertex)) {
@@ -82,7 +83,11 @@ struct ShapeEnergy::Parts {
           }
         },
         progress);
+    starts.assign(pattern.outerIndexPtr(), pattern.outerIndexPtr() + count + 1);
+    columns.assign(pattern.innerIndexPtr(), pattern.innerIndexPtr() + pattern.nonZeros());
   }
+
+  Matrix zeros() const;
 
   void require_base_points(ConstValuesRef points) const {
     require_vertex_rows(patches.base(), points);
@@ -101,6 +106,17 @@ struct ShapeEnergy::Parts {
     require_coefficients(face_factors, patches.topology().face_count(), "factor");
   }
 };
+
+/// K with zeros for entries.
+ShapeEnergy::Matrix ShapeEnergy::Parts::zeros() const {
+  const Index count = patches.base().vertex_count();
+  Matrix matrix(count, count);
+  matrix.resizeNonZeros(static_cast<Eigen::Index>(columns.size()));
+  std::copy(starts.begin(), starts.end(), matrix.outerIndexPtr());
+  std::copy(columns.begin(), columns.end(), matrix.innerIndexPtr());
+  matrix.coeffs().setZero();
+  return matrix;
+}
 
 void ShapeEnergy::Parts::find_matrices(Index begin, Index end, ConstValuesRef reference,
                                        std::span<const double> face_factors, ElementMatrices& matrices) const {
@@ -168,7 +184,7 @@ ShapeEnergy::Matrix ShapeEnergy::matrix(ConstValuesRef reference, std::span<cons
                                         const Progress& progress) const {
   parts_->require_base_points(reference);
   parts_->require_factors(face_factors);
-  Matrix matrix = parts_->pattern;
+  Matrix matrix = parts_->zeros();
   const auto columns = static_cast<std::size_t>(matrix.cols());
   ElementMatrices matrices;
   Buffer<std::uint8_t> marks(columns, 0);
