@@ -10,6 +10,7 @@
 #include "batten/mesh/primitives.h"
 #include "batten/parallel/threads.h"
 #include "batten/refine/refinement.h"
+#include "batten/solve/cholesky_factor.h"
 #include "support/errors.h"
 #include "support/loads.h"
 #include "support/schemes.h"
@@ -320,6 +321,35 @@ TEST(ElasticMotion, HasTheSameBitsOnAnyNumberOfThreadsAndWhenTakenUpAgain) {
   const Points once = run(1, false);
   EXPECT_EQ(run(3, false), once);
   EXPECT_EQ(run(2, true), once);
+}
+
+/// So large that the factor is in single precision. The oracle is one solve in double.
+TEST(ElasticMotion, LargeBodiesSolveAsExactlyAsSmallOnes) {
+  const Mesh mesh = torus(500, 301);
+  ElasticOptions options;
+  options.rest = RestModel::Linear;
+  const ElasticSurface surface(Topology(mesh), test::kCatmullClark, mesh.points, options);
+  const double h = 1.0 / 60.0;
+  const auto stepped = [&](int threads) {
+    const ThreadLimit limit(threads);
+    ElasticMotion motion(surface);
+    ElasticState state = thrown(surface);
+    const StepReport report = motion.step(state);
+    EXPECT_GT(report.solver_iterations, 0) << "the factor is in double precision";
+    EXPECT_LE(report.solver_iterations, 20);
+    return state;
+  };
+  const ElasticState start = thrown(surface);
+  const ElasticState end = stepped(1);
+  const ElasticSurface::Matrix system =
+      surface.mass() / (h * h) + surface.damping() / h + surface.stiffness();  // from rest
+  Values change;
+  CholeskyFactor(system).solve(surface.mass() * start.velocities / h, change);
+  EXPECT_GT(change.norm(), 0.1);
+  EXPECT_LE((end.positions - start.positions - change).cwiseAbs().maxCoeff(), 1e-11 * surface.diagonal());
+  const ElasticState by_two = stepped(2);
+  EXPECT_EQ(end.positions, by_two.positions);
+  EXPECT_EQ(end.velocities, by_two.velocities);
 }
 
 TEST(ElasticMotion, SaysWhatIsWrong) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <cmath>
 #include <random>
 #include <vector>
 
@@ -112,6 +113,66 @@ TEST(CholeskyFactor, HasTheSameBitsOnAnyNumberOfThreads) {
   const Matrix matrix = grid_matrix(90);
   ASSERT_GT(CholeskyFactor(matrix).entry_count(), 500'000U);
   const Values b = test::random_values(static_cast<Index>(matrix.rows()), 3);
+  const auto solution = [&](int threads) {
+    const ThreadLimit limit(threads);
+    Values x;
+    CholeskyFactor(matrix).solve(b, x);
+    return x;
+  };
+  const Values alone = solution(1);
+  EXPECT_EQ(alone, solution(4));
+  EXPECT_LE((matrix * alone - b).norm(), 1e-12 * b.norm());
+}
+
+/// Its solutions are near, and mending them by their residuals comes to double precision.
+TEST(CholeskyFactor, SinglePrecisionIsAPreconditioner) {
+  const Matrix matrix = grid_matrix(90);
+  for (const double unit : {1.0, 1e-60, 1e60}) {
+    // Of very different sizes, as of a body whose parts have different masses.
+    Matrix scaled = matrix;
+    for (int row = 0; row < scaled.rows(); ++row) {
+      for (Matrix::InnerIterator e(scaled, row); e; ++e) {
+        e.valueRef() *= unit * std::pow(10.0, 0.5 * ((row % 5) + (e.col() % 5)));
+      }
+    }
+    const CholeskyFactor factor(scaled, FactorPrecision::Single);
+    ASSERT_TRUE(factor.positive());
+    EXPECT_EQ(factor.precision(), FactorPrecision::Single);
+    const Values b = unit * test::random_values(static_cast<Index>(matrix.rows()), 3);
+    Values x;
+    factor.solve(b, x);
+    const double first = (scaled * x - b).norm();
+    EXPECT_LE(first, 1e-5 * b.norm());
+    EXPECT_GT(first, 1e-12 * b.norm()) << "as if it were in double precision";
+    for (int i = 0; i < 4; ++i) {
+      Values step;
+      factor.solve(b - scaled * x, step);
+      x += step;
+    }
+    EXPECT_LE((scaled * x - b).norm(), 1e-14 * b.norm());
+  }
+}
+
+TEST(CholeskyFactor, SinglePrecisionHasTheSameBitsOnAnyNumberOfThreads) {
+  const Matrix matrix = grid_matrix(90);
+  const Values b = test::random_values(static_cast<Index>(matrix.rows()), 3);
+  const auto solution = [&](int threads) {
+    const ThreadLimit limit(threads);
+    Values x;
+    CholeskyFactor(matrix, FactorPrecision::Single).solve(b, x);
+    return x;
+  };
+  EXPECT_EQ(solution(1), solution(4));
+}
+
+/// Blocks so large that threads share one: a full matrix.
+TEST(CholeskyFactor, SharesRowsOfLargeBlocks) {
+  std::vector<Eigen::Triplet<double>> full;
+  for (int i = 0; i < 900; ++i) {
+    for (int j = 0; j <= i; ++j) full.emplace_back(i, j, i == j ? 1000.0 : std::cos(3.0 * i + j));
+  }
+  const Matrix matrix = symmetric(900, full);
+  const Values b = test::random_values(900, 3);
   const auto solution = [&](int threads) {
     const ThreadLimit limit(threads);
     Values x;

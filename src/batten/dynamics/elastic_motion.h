@@ -21,8 +21,10 @@ enum class TimeScheme {
 
 /// How a step's linear system is solved.
 enum class MotionSolver {
-  Auto,      ///< Direct up to 150,000 control points
-  Direct,    ///< sparse Cholesky, factored once; conjugate gradients for what changes from step to step
+  Auto,  ///< Direct up to 400,000 control points
+  /// Sparse Cholesky, factored once; conjugate gradients for what changes from step to step. From 150,000 control
+  /// points on without pins the factor is in single precision, and conjugate gradients take its errors out.
+  Direct,
   Iterative  ///< conjugate gradients with an incomplete factor
 };
 

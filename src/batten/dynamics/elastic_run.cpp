@@ -102,7 +102,9 @@ bool ElasticRun::Parts::is_at_rest(const ElasticRow& row) const {
   const ElasticSurface& body = motion.surface();
   const double share = body.diagonal() / body.topology().vertex_count();
   const double speed = scene.time.rest.speed.value_or(kSpeed * body.diagonal());
-  const double usual_force = share * (kAcceleration * body.mass().sum() + kSpeed * body.damping().sum());
+  const double mass = body.mass().sum();
+  const double damping = body.damping_ratio() ? *body.damping_ratio() * mass : body.damping().sum();
+  const double usual_force = share * (kAcceleration * mass + kSpeed * damping);
   return row.speed <= speed && row.measure.residual_force <= scene.time.rest.force.value_or(usual_force);
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -16,6 +17,7 @@
 #include "batten/mesh/measures.h"
 #include "batten/parallel/parallel.h"
 #include "batten/refine/refinement.h"
+#include "batten/released_memory.h"
 #include "batten/solve/sparse_product.h"
 #include "batten/surface/quadrature.h"
 
@@ -52,10 +54,7 @@ Scalars area_ratios(const SurfacePatches& patches, const Points& control) {
 
 /// to += what. In place where the entries are the same.
 void add_matrix(const ElasticSurface::Matrix& what, ElasticSurface::Matrix& to) {
-  const bool same = what.nonZeros() == to.nonZeros() &&
-                    std::equal(what.outerIndexPtr(), what.outerIndexPtr() + what.rows() + 1, to.outerIndexPtr()) &&
-                    std::equal(what.innerIndexPtr(), what.innerIndexPtr() + what.nonZeros(), to.innerIndexPtr());
-  if (same) {
+  if (same_pattern(what, to)) {
     to.coeffs() += what.coeffs();
   } else {
     to += what;
@@ -84,7 +83,9 @@ struct ElasticSurface::Parts {
   Points rest;
   double diagonal;
   Matrix mass;
-  Matrix damping;
+  std::optional<double> damping_ratio;
+  mutable std::once_flag damping_made;
+  mutable Matrix damping;  ///< with a ratio made when it is asked for
   Matrix stiffness;
   std::optional<PlaceRows> first_step;  ///< S, where the base is a first refinement
   Points linear_force;                  ///< K R under Linear, or empty
@@ -96,12 +97,14 @@ struct ElasticSurface::Parts {
     diagonal = (box.high - box.low).stableNorm();
     if (patches.has_first_step()) first_step = first_step_rows(patches);
     make_mass(progress_within(progress, 0.0, 0.3));
+    release_freed_memory();
     const Points base_rest = patches.base_values(rest);
     if (options.measure == ElasticMeasure::Lengths) {
       measure_lengths(base_rest, progress_within(progress, 0.3, 1.0));
     } else {
       measure_parameters(base_rest, progress_within(progress, 0.3, 1.0));
     }
+    release_freed_memory();
     turning.finish(patches.base().vertex_count());
     if (options.rest == RestModel::Linear) {
       Values product;
@@ -151,7 +154,7 @@ void ElasticSurface::Parts::make_mass(const Progress& progress) {
   }
   mass = SurfaceEnergy(patches, by_density).matrix(EnergyKind::Mass, progress_within(progress, 0.0, 0.5));
   if (material().density.size() == 1 && material().damping.size() == 1 && material().density[0] > 0.0) {
-    damping = mass * (material().damping[0] / material().density[0]);
+    damping_ratio = material().damping[0] / material().density[0];
   } else {
     damping = SurfaceEnergy(patches, by_damping).matrix(EnergyKind::Mass, progress_within(progress, 0.5, 1.0));
   }
@@ -160,11 +163,11 @@ void ElasticSurface::Parts::make_mass(const Progress& progress) {
 void ElasticSurface::Parts::measure_lengths(const Points& base_rest, const Progress& progress) {
   const auto add = [&](ShapeEnergyKind kind, const FaceCoefficients& coefficients, const Progress& part) {
     const ShapeEnergy energy(patches, kind, kShapeQuadrature, progress_within(part, 0.0, 0.3));
-    Matrix matrix = energy.matrix(base_rest, coefficients, progress_within(part, 0.3, 1.0));
-    if (options.rest == RestModel::Rotating) {
+    if (options.rest == RestModel::Rotating) {  // before the matrix, which takes more memory
       turning.add(energy.elements(), energy.element_gradients(base_rest, coefficients), base_rest);
     }
-    return matrix;
+    release_freed_memory();
+    return energy.matrix(base_rest, coefficients, progress_within(part, 0.3, 1.0));
   };
   Matrix stretch = add(ShapeEnergyKind::Stretch, material().tension, progress_within(progress, 0.0, 0.4));
   const Matrix bending = add(ShapeEnergyKind::Bending, material().rigidity, progress_within(progress, 0.4, 1.0));
@@ -201,7 +204,13 @@ const ElasticOptions& ElasticSurface::options() const { return parts_->options; 
 const Points& ElasticSurface::rest() const { return parts_->rest; }
 double ElasticSurface::diagonal() const { return parts_->diagonal; }
 const ElasticSurface::Matrix& ElasticSurface::mass() const { return parts_->mass; }
-const ElasticSurface::Matrix& ElasticSurface::damping() const { return parts_->damping; }
+const ElasticSurface::Matrix& ElasticSurface::damping() const {
+  if (damping_ratio()) {
+    std::call_once(parts_->damping_made, [&] { parts_->damping = parts_->mass * *damping_ratio(); });
+  }
+  return parts_->damping;
+}
+std::optional<double> ElasticSurface::damping_ratio() const { return parts_->damping_ratio; }
 const ElasticSurface::Matrix& ElasticSurface::stiffness() const { return parts_->stiffness; }
 
 void ElasticSurface::rest_force(ConstValuesRef positions, ValuesRef result) const {

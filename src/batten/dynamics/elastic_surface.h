@@ -63,8 +63,11 @@ class ElasticSurface {
   const Points& rest() const;
   double diagonal() const;  ///< of the box around the rest shape's control points
 
-  const Matrix& mass() const;       ///< M: its entries sum to the mass of the body
-  const Matrix& damping() const;    ///< D
+  const Matrix& mass() const;  ///< M: its entries sum to the mass of the body
+  /// D. Where it is a factor of M it is made at the first call: damping_ratio() says so without it.
+  const Matrix& damping() const;
+  /// The number that D is M times, where density and damping are each one for all faces and the density is not 0.
+  std::optional<double> damping_ratio() const;
   const Matrix& stiffness() const;  ///< K
 
   /// K R for RestModel's R; zero for Point. What a step with K in its system puts on the right hand side. positions,

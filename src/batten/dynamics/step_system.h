@@ -49,16 +49,23 @@ class StepSystem {
 
  private:
   struct Extra;
+  bool all_free() const;  ///< no control point is fixed
+  void find_matrix(const StepWeights& weights, const std::vector<PlaceSprings>& lasting);
+  void multiply_system(const Values& x, Values& product) const;
+  void factorise(const ElasticSurface::Matrix& pattern, const CholeskyFactor::EntryValue& value);
   Values residual(const Round& round, const Extra& extra, const Points& start, const Points& positions) const;
   int correct(const Extra& extra, const Values& right, const Progress& progress, Points& positions) const;
   void precondition(const Values& b, Values& x) const;
 
-  ElasticSurface::Matrix matrix_;     ///< S
-  ElasticSurface::Matrix with_pins_;  ///< S + J^T r J, or empty without pins
+  ElasticSurface surface_;
+  std::optional<double> mass_weight_;  ///< S is K and this times M, or
+  ElasticSurface::Matrix matrix_;      ///< S
+  ElasticSurface::Matrix with_pins_;   ///< S + J^T r J, or empty without pins
   const HeldPoints& held_;
   double pin_stiffness_ = 0.0;  ///< r
-  double tolerance_;            ///< of conjugate gradients, in their norm
   double diagonal_;
+  double tolerance_;                      ///< of conjugate gradients, relative to unit_
+  double unit_;                           ///< of their norm: that of the diagonal
   std::optional<CholeskyFactor> factor_;  ///< of the free rows
   std::optional<IncompleteFactor> incomplete_;
 };

@@ -1,5 +1,7 @@
 #include "batten/dynamics/time_forms.h"
 
+#include <optional>
+
 #include "batten/solve/sparse_product.h"
 
 namespace batten {
@@ -32,8 +34,10 @@ Points inertia_force(TimeScheme scheme, double step, const ElasticSurface& surfa
     multiply(surface.mass(), ahead, product);
     force += weights.mass * product;
   }
-  multiply(surface.damping(), damped, product);
-  force += weights.damping * product;
+  const std::optional<double> ratio = surface.damping_ratio();
+  if (ratio == 0.0) return force;
+  multiply(ratio ? surface.mass() : surface.damping(), damped, product);
+  force += weights.damping * ratio.value_or(1.0) * product;
   return force;
 }
 

@@ -16,14 +16,26 @@ constexpr std::ptrdiff_t kTurnBlock = 256;
 
 }  // namespace
 
+void TurningFaces::Parts::reserve(std::size_t count) {
+  vertices.reserve(count);
+  gradients.reserve(3 * count);
+}
+
+void TurningFaces::Parts::add(Index vertex, const Eigen::RowVector3d& gradient) {
+  vertices.push_back(vertex);
+  gradients.insert(gradients.end(), gradient.data(), gradient.data() + 3);
+}
+
 void TurningFaces::add(const FaceElements& elements, const Buffer<double>& gradients, const Points& rest) {
   const bool first = starts_.size() == 1;
   Buffer<std::size_t> starts{0};
-  Buffer<Part> parts;
+  Parts parts;
   parts.reserve(std::max(parts_.size(), elements.vertices().size()));  // most are in both
   for (Index e = 0; e < elements.count(); ++e) {
     const std::size_t begin = parts.size();
-    if (!first) parts.insert(parts.end(), parts_.begin() + starts_[e], parts_.begin() + starts_[e + 1]);
+    for (std::size_t i = first ? 0 : starts_[e]; i < (first ? 0 : starts_[e + 1]); ++i) {
+      parts.add(parts_.vertices[i], parts_.gradient(i));
+    }
     const std::size_t known = parts.size();
     const double* gradient = gradients.data() + 3 * elements.start(e);
     std::size_t next = begin;  // elements of two energies mostly list the same vertices
@@ -31,13 +43,13 @@ void TurningFaces::add(const FaceElements& elements, const Buffer<double>& gradi
       const Eigen::Map<const Eigen::RowVector3d> g(gradient);
       gradient += 3;
       rest_energy_ += 0.5 * g.dot(rest.row(v));
-      if (next < known && parts[next].vertex != v) {
-        for (next = begin; next < known && parts[next].vertex != v;) ++next;
+      if (next < known && parts.vertices[next] != v) {
+        for (next = begin; next < known && parts.vertices[next] != v;) ++next;
       }
       if (next < known) {
-        parts[next++].gradient += g;
+        parts.gradient(next++) += g;
       } else {
-        parts.push_back({v, g});
+        parts.add(v, g);
       }
     }
     starts.push_back(parts.size());
@@ -48,13 +60,13 @@ void TurningFaces::add(const FaceElements& elements, const Buffer<double>& gradi
 
 void TurningFaces::finish(Index vertex_count) {
   first_uses_.assign(static_cast<std::size_t>(vertex_count) + 1, 0);
-  for (const Part& part : parts_) ++first_uses_[part.vertex + 1];
+  for (const Index v : parts_.vertices) ++first_uses_[v + 1];
   std::partial_sum(first_uses_.begin(), first_uses_.end(), first_uses_.begin());
   uses_.resize(parts_.size());
   Buffer<std::size_t> next(first_uses_.begin(), first_uses_.end() - 1);
   for (std::size_t e = 0; e + 1 < starts_.size(); ++e) {
     for (std::size_t i = starts_[e]; i < starts_[e + 1]; ++i) {
-      uses_[next[parts_[i].vertex]++] = {static_cast<Index>(e), parts_[i].gradient};
+      uses_[next[parts_.vertices[i]]++] = {static_cast<Index>(e), static_cast<Index>(i)};
     }
   }
 }
@@ -68,7 +80,7 @@ double TurningFaces::turn(const Points& points, Points* result) const {
         for (std::ptrdiff_t e = begin; e < end; ++e) {
           Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
           for (std::size_t i = starts_[e]; i < starts_[e + 1]; ++i) {
-            a += points.row(parts_[i].vertex).transpose() * parts_[i].gradient;
+            a += points.row(parts_.vertices[i]).transpose() * parts_.gradient(i);
           }
           const BestRotation best = best_rotation(a);
           rotations[e] = best.matrix;
@@ -85,7 +97,7 @@ double TurningFaces::turn(const Points& points, Points* result) const {
         for (std::ptrdiff_t v = begin; v < end; ++v) {
           Eigen::Vector3d force = Eigen::Vector3d::Zero();
           for (std::size_t i = first_uses_[v]; i < first_uses_[v + 1]; ++i) {
-            force += rotations[uses_[i].element] * uses_[i].gradient.transpose();
+            force += rotations[uses_[i].element] * parts_.gradient(uses_[i].part).transpose();
           }
           result->row(v) = force;
         }

@@ -1,10 +1,12 @@
 #include "batten/solve/cholesky_factor.h"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
+#include <type_traits>
 #include <utility>
 
 #include "batten/parallel/parallel.h"
+#include "batten/released_memory.h"
 #include "batten/solve/front.h"
 
 namespace batten {
@@ -27,53 +29,160 @@ class FrontRows {
   Buffer<int> places_;
 };
 
-/// Adds the lower triangle of the matrix's columns of a supernode.
-void add_matrix(const Matrix& matrix, const Elimination& elimination, int node, const FrontRows& rows, Front& front) {
+/// Adds the lower triangle of the matrix's columns of a supernode. scale: as scale_, or null.
+template <typename Number>
+void add_matrix(const Matrix& pattern, const CholeskyFactor::EntryValue& value, const double* scale,
+                const Elimination& elimination, int node, const FrontRows& rows, Front<Number>& front) {
   const int first = elimination.first_column(node);
   for (int j = 0; j < elimination.width(node); ++j) {
-    double* const column = front.column(j);
-    for (Matrix::InnerIterator e(matrix, elimination.places()[first + j]); e; ++e) {
-      const int row = elimination.order()[e.col()];
-      if (row >= first + j) column[rows[row]] += e.value();
+    Number* const column = front.column(j);
+    const int from = elimination.places()[first + j];
+    for (int e = pattern.outerIndexPtr()[from]; e < pattern.outerIndexPtr()[from + 1]; ++e) {
+      const int to = pattern.innerIndexPtr()[e];
+      const int row = elimination.order()[to];
+      if (row < first + j) continue;
+      const double number = scale == nullptr ? value(e) : scale[from] * value(e) * scale[to];
+      column[rows[row]] += static_cast<Number>(number);
     }
   }
 }
 
 /// Adds what a child's columns have left, `rest`, whose rows are `rest_rows`.
-void add_child(const Front& rest, const int* rest_rows, const FrontRows& rows, Buffer<int>& places, Front& front) {
+template <typename Number>
+void add_child(const Front<Number>& rest, const int* rest_rows, const FrontRows& rows, Buffer<int>& places,
+               Front<Number>& front) {
   places.resize(static_cast<std::size_t>(rest.size));
   for (int i = 0; i < rest.size; ++i) places[i] = rows[rest_rows[i]];
   for (int j = 0; j < rest.size; ++j) {
-    const double* const from = rest.column(j);
-    double* const to = front.column(places[j]);
+    const Number* const from = rest.column(j);
+    Number* const to = front.column(places[j]);
     for (int i = j; i < rest.size; ++i) to[places[i]] += from[i];
   }
 }
 
-/// The Schur complement that a front's first `width` columns have left.
-Front rest_of(const Front& front, int width) {
-  Front rest;
+/// The Schur complement that a front's first `width` columns have left: the end of its entries.
+template <typename Number>
+Front<Number> rest_of(const Front<Number>& front, int width) {
+  Front<Number> rest;
   rest.size = front.size - width;
-  rest.entries.resize(static_cast<std::size_t>(rest.size) * static_cast<std::size_t>(rest.size));
-  for (int j = 0; j < rest.size; ++j) {
-    const double* const from = front.column(width + j) + width;
-    std::copy(from + j, from + rest.size, rest.column(j) + j);
-  }
+  const auto begin = static_cast<std::ptrdiff_t>(Front<Number>::entry_count(front.size, width));
+  rest.entries.assign(front.entries.begin() + begin, front.entries.end());
   return rest;
+}
+
+/// One of the columns of a supernode with `size` rows: row i stands at [i], for i >= j.
+template <typename Number>
+const Number* column_of(const Number* entries, int size, int j) {
+  return entries + Front<Number>::entry_count(size, j) - j;
+}
+
+/// Columns that are taken together: each row is loaded once for all of them.
+constexpr int kTogether = 4;
+/// Columns of a large block after which threads take the rows below, or these columns' sums, and the entries that are
+/// worth it.
+constexpr int kPanelColumns = 256;
+constexpr std::ptrdiff_t kWorthThreads = 100'000;
+constexpr std::ptrdiff_t kRowsOfTask = 256;
+
+/// local[begin .. end) loses what columns j to j + Count take from it.
+template <int Count, typename Number, typename Row>
+void take_columns(const Number* entries, int size, int j, int begin, int end, Row* local) {
+  const Number* columns[Count];
+  Row values[Count];
+  for (int c = 0; c < Count; ++c) {
+    columns[c] = column_of(entries, size, j + c);
+    values[c] = local[j + c];
+  }
+  for (int i = begin; i < end; ++i) {
+    Row row = local[i];
+    for (int c = 0; c < Count; ++c) row -= columns[c][i] * values[c];
+    local[i] = row;
+  }
+}
+
+/// Solves for the rows of columns j to j + Count, which have lost what those before take.
+template <int Count, typename Number, typename Row>
+void solve_columns(const Number* entries, int size, int j, Row* local) {
+  for (int c = 0; c < Count; ++c) {
+    const Number* const column = column_of(entries, size, j + c);
+    local[j + c] /= column[j + c];
+    for (int i = c + 1; i < Count; ++i) local[j + i] -= column[j + i] * local[j + c];
+  }
+}
+
+/// local[j .. j + Count) loses what the rows begin to end take from it. Two sums for each, so that an addition starts
+/// before the last one has ended.
+template <int Count, typename Number, typename Row>
+void take_rows(const Number* entries, int size, int j, int begin, int end, Row* local) {
+  const Number* columns[Count];
+  Row sums[2][Count] = {};
+  for (int c = 0; c < Count; ++c) columns[c] = column_of(entries, size, j + c);
+  int i = begin;
+  for (; i + 1 < end; i += 2) {
+    const Row even = local[i];
+    const Row odd = local[i + 1];
+    for (int c = 0; c < Count; ++c) {
+      sums[0][c] += columns[c][i] * even;
+      sums[1][c] += columns[c][i + 1] * odd;
+    }
+  }
+  for (int c = 0; c < Count; ++c) {
+    if (i < end) sums[0][c] += columns[c][i] * local[i];
+    local[j + c] -= sums[0][c] + sums[1][c];
+  }
+}
+
+/// Solves backwards for the rows of columns j to j + Count, which have lost what the rows below take.
+template <int Count, typename Number, typename Row>
+void solve_rows(const Number* entries, int size, int j, Row* local) {
+  for (int c = Count - 1; c >= 0; --c) {
+    const Number* const column = column_of(entries, size, j + c);
+    for (int i = c + 1; i < Count; ++i) local[j + c] -= column[j + i] * local[j + i];
+    local[j + c] /= column[j + c];
+  }
+}
+
+/// Entries of a factor beside which the milliseconds of giving memory back do not count.
+constexpr std::size_t kLarge = 4'000'000;
+
+/// Calls work(std::integral_constant<int, count>, j) for groups of columns of begin to end, ascending.
+template <typename Work>
+void for_column_groups(int begin, int end, const Work& work) {
+  int j = begin;
+  for (; j + kTogether <= end; j += kTogether) work(std::integral_constant<int, kTogether>(), j);
+  for (; j < end; ++j) work(std::integral_constant<int, 1>(), j);
+}
+
+/// The same groups, descending.
+template <typename Work>
+void for_column_groups_back(int begin, int end, const Work& work) {
+  const int whole = begin + (end - begin) / kTogether * kTogether;
+  for (int j = end - 1; j >= whole; --j) work(std::integral_constant<int, 1>(), j);
+  for (int j = whole - kTogether; j >= begin; j -= kTogether) work(std::integral_constant<int, kTogether>(), j);
 }
 
 }  // namespace
 
-CholeskyFactor::CholeskyFactor(const Matrix& matrix) : elimination_(matrix) {
+CholeskyFactor::CholeskyFactor(const Matrix& matrix, FactorPrecision precision)
+    : CholeskyFactor(matrix, precision, [&](std::ptrdiff_t entry) { return matrix.valuePtr()[entry]; }) {}
+
+CholeskyFactor::CholeskyFactor(const Matrix& pattern, FactorPrecision precision, const EntryValue& value)
+    : elimination_(pattern), precision_(precision) {
   starts_.push_back(0);
   for (int s = 0; s < elimination_.count(); ++s) {
-    starts_.push_back(starts_.back() + static_cast<std::size_t>(elimination_.width(s)) *
-                                           static_cast<std::size_t>(elimination_.row_count(s)));
+    starts_.push_back(starts_.back() + Front<double>::entry_count(elimination_.row_count(s), elimination_.width(s)));
   }
-  entries_.resize(starts_.back());
   split_tree();
   list_places();
-  factor(matrix);
+  if (starts_.back() > kLarge) release_freed_memory();  // of finding the order
+  if (precision == FactorPrecision::Double) {
+    entries_.resize(starts_.back());
+    factor<double>(pattern, value);
+  } else {
+    find_scale(pattern, value);
+    single_entries_.resize(starts_.back());
+    factor<float>(pattern, value);
+  }
 }
 
 /// Cuts the tree from its roots down until no part is large. The cut depends on the matrix alone.
@@ -139,23 +248,36 @@ void CholeskyFactor::list_places() {
   }
 }
 
+/// One over the root of the diagonal; 0 where that is not positive, so that the pivot is neither.
+void CholeskyFactor::find_scale(const Matrix& pattern, const EntryValue& value) {
+  scale_.assign(static_cast<std::size_t>(pattern.rows()), 0.0);
+  for (Eigen::Index row = 0; row < pattern.rows(); ++row) {
+    for (int e = pattern.outerIndexPtr()[row]; e < pattern.outerIndexPtr()[row + 1]; ++e) {
+      if (pattern.innerIndexPtr()[e] != row) continue;
+      const double number = value(e);
+      scale_[row] = number > 0.0 ? 1.0 / std::sqrt(number) : 0.0;
+    }
+  }
+}
+
 /// Children stand before their parents, and the subtrees one after the other: the rests are a stack.
-void CholeskyFactor::factor(const Matrix& matrix) {
+template <typename Number>
+void CholeskyFactor::factor(const Matrix& pattern, const EntryValue& value) {
   struct Waiting {
     int node;
-    Front rest;
+    Front<Number> rest;
   };
   std::vector<Waiting> stack;
   FrontRows rows(elimination_.order().size());
-  Front front;
+  Front<Number> front;
   Buffer<int> places;
-  Buffer<double> diagonal;
+  Buffer<Number> diagonal;
   least_pivot_ = 1.0;
   for (int s = 0; s < elimination_.count(); ++s) {
     const int width = elimination_.width(s);
     front.reset(elimination_.row_count(s));
     rows.set(elimination_.rows(s), front.size);
-    add_matrix(matrix, elimination_, s, rows, front);
+    add_matrix(pattern, value, scale_.empty() ? nullptr : scale_.data(), elimination_, s, rows, front);
     diagonal.clear();
     for (int j = 0; j < width; ++j) diagonal.push_back(front.column(j)[j]);
     while (!stack.empty() && elimination_.parent(stack.back().node) == s) {
@@ -166,104 +288,147 @@ void CholeskyFactor::factor(const Matrix& matrix) {
     const double pivot = factor_front(front, width, diagonal.data());
     if (pivot < 0.0) return;
     least_pivot_ = std::min(least_pivot_, pivot);
-    for (int j = 0; j < width; ++j) {
-      std::copy(front.column(j), front.column(j) + front.size,
-                entries_.begin() + static_cast<std::ptrdiff_t>(starts_[s] + static_cast<std::size_t>(j) *
-                                                                                static_cast<std::size_t>(front.size)));
-    }
+    std::copy_n(front.entries.begin(), starts_[s + 1] - starts_[s], const_cast<Number*>(node_entries<Number>(s)));
     if (front.size > width) stack.push_back({s, rest_of(front, width)});
   }
   positive_ = true;
 }
 
-/// Solves for the supernode's own columns; `below` becomes what they take from the rows below.
-void CholeskyFactor::eliminate(int node, Buffer<Double4>& x, Buffer<Double4>& below) const {
+/// Solves for the supernode's own columns; `local` becomes what they add to its rows.
+template <typename Number>
+void CholeskyFactor::eliminate(int node, Buffer<Row<Number>>& x, Buffer<Row<Number>>& local) const {
   const int width = elimination_.width(node);
   const int size = elimination_.row_count(node);
-  Double4* const own = x.data() + elimination_.first_column(node);
-  below.assign(static_cast<std::size_t>(size - width), Double4{});
-  for (int j = 0; j < width; ++j) {
-    const double* const weights = column(node, j);
-    const Double4 value = own[j] / weights[j];
-    own[j] = value;
-    for (int i = j + 1; i < width; ++i) own[i] -= weights[i] * value;
-    for (int i = width; i < size; ++i) below[i - width] += weights[i] * value;
+  const Number* const entries = node_entries<Number>(node);
+  Row<Number>* const own = x.data() + elimination_.first_column(node);
+  local.assign(static_cast<std::size_t>(size), Row<Number>{});
+  std::copy_n(own, width, local.data());
+  for (int begin = 0; begin < width; begin += kPanelColumns) {
+    const int end = std::min(width, begin + kPanelColumns);
+    const std::ptrdiff_t below = size - end;
+    const bool shared = below * (end - begin) >= kWorthThreads;
+    for_column_groups(begin, end, [&](auto count, int j) {
+      solve_columns<count()>(entries, size, j, local.data());
+      take_columns<count()>(entries, size, j, j + count(), shared ? end : size, local.data());
+    });
+    if (!shared) continue;
+    parallel_for(
+        below,
+        [&](std::ptrdiff_t first, std::ptrdiff_t last) {
+          for_column_groups(begin, end, [&](auto count, int j) {
+            take_columns<count()>(entries, size, j, end + static_cast<int>(first), end + static_cast<int>(last),
+                                  local.data());
+          });
+        },
+        kRowsOfTask);
   }
+  std::copy_n(local.data(), width, own);
 }
 
 /// Back substitution for the supernode's own columns.
-void CholeskyFactor::substitute(int node, Buffer<Double4>& x, Buffer<Double4>& below) const {
+template <typename Number>
+void CholeskyFactor::substitute(int node, Buffer<Row<Number>>& x, Buffer<Row<Number>>& local) const {
   const int width = elimination_.width(node);
   const int size = elimination_.row_count(node);
   const int* const rows = elimination_.rows(node);
-  Double4* const own = x.data() + elimination_.first_column(node);
-  below.resize(static_cast<std::size_t>(size - width));
-  for (int i = width; i < size; ++i) below[i - width] = x[rows[i]];
-  for (int j = width - 1; j >= 0; --j) {
-    const double* const weights = column(node, j);
-    Double4 even = own[j];
-    Double4 odd{};
-    for (int i = j + 1; i < width; ++i) even -= weights[i] * own[i];
-    int i = width;
-    for (; i + 1 < size; i += 2) {
-      even -= weights[i] * below[i - width];
-      odd -= weights[i + 1] * below[i + 1 - width];
+  const Number* const entries = node_entries<Number>(node);
+  local.resize(static_cast<std::size_t>(size));
+  for (int i = 0; i < size; ++i) local[i] = x[rows[i]];
+  for (int end = width; end > 0;) {
+    const int begin = (end - 1) / kPanelColumns * kPanelColumns;
+    const std::ptrdiff_t groups = (end - begin + kTogether - 1) / kTogether;
+    const bool shared = std::ptrdiff_t{size - end} * (end - begin) >= kWorthThreads;
+    if (shared) {
+      parallel_for_each(groups, [&](std::ptrdiff_t g) {
+        const int first = begin + static_cast<int>(g) * kTogether;
+        for_column_groups(first, std::min(end, first + kTogether),
+                          [&](auto count, int j) { take_rows<count()>(entries, size, j, end, size, local.data()); });
+      });
     }
-    if (i < size) even -= weights[i] * below[i - width];
-    own[j] = (even + odd) / weights[j];
+    for_column_groups_back(begin, end, [&](auto count, int j) {
+      take_rows<count()>(entries, size, j, j + count(), shared ? end : size, local.data());
+      solve_rows<count()>(entries, size, j, local.data());
+    });
+    end = begin;
   }
+  std::copy_n(local.data(), width, x.data() + elimination_.first_column(node));
 }
 
-void CholeskyFactor::solve_four(Buffer<Double4>& x) const {
-  std::vector<Buffer<Double4>> outside(subtrees_.size());
+template <typename Number>
+void CholeskyFactor::solve_four(Buffer<Row<Number>>& x) const {
+  std::vector<Buffer<Row<Number>>> outside(subtrees_.size());
   parallel_for_each(static_cast<std::ptrdiff_t>(subtrees_.size()), [&](std::ptrdiff_t t) {
     const Subtree& tree = subtrees_[static_cast<std::size_t>(t)];
-    Buffer<Double4>& sums = outside[static_cast<std::size_t>(t)];
-    sums.assign(static_cast<std::size_t>(elimination_.row_count(tree.root) - elimination_.width(tree.root)), Double4{});
-    Buffer<Double4> below;
+    Buffer<Row<Number>>& sums = outside[static_cast<std::size_t>(t)];
+    sums.assign(static_cast<std::size_t>(elimination_.row_count(tree.root) - elimination_.width(tree.root)),
+                Row<Number>{});
+    Buffer<Row<Number>> local;
     for (int s = tree.first; s <= tree.root; ++s) {
-      eliminate(s, x, below);
-      const int width = elimination_.width(s);
+      eliminate<Number>(s, x, local);
       const int* const rows = elimination_.rows(s);
-      for (int i = width; i < inside_[s]; ++i) x[rows[i]] -= below[i - width];
+      for (int i = elimination_.width(s); i < inside_[s]; ++i) x[rows[i]] += local[i];
       const int* const places = places_.data() + place_starts_[s];
-      for (int i = inside_[s]; i < elimination_.row_count(s); ++i) sums[places[i - inside_[s]]] += below[i - width];
+      for (int i = inside_[s]; i < elimination_.row_count(s); ++i) sums[places[i - inside_[s]]] += local[i];
     }
   });
   for (std::size_t t = 0; t < subtrees_.size(); ++t) {
     const int root = subtrees_[t].root;
     const int* const rows = elimination_.rows(root) + elimination_.width(root);
-    for (std::size_t i = 0; i < outside[t].size(); ++i) x[rows[i]] -= outside[t][i];
+    for (std::size_t i = 0; i < outside[t].size(); ++i) x[rows[i]] += outside[t][i];
   }
-  Buffer<Double4> below;
+  Buffer<Row<Number>> local;
   for (const int s : top_) {
-    eliminate(s, x, below);
-    const int* const rows = elimination_.rows(s) + elimination_.width(s);
-    for (std::size_t i = 0; i < below.size(); ++i) x[rows[i]] -= below[i];
+    eliminate<Number>(s, x, local);
+    const int* const rows = elimination_.rows(s);
+    for (int i = elimination_.width(s); i < elimination_.row_count(s); ++i) x[rows[i]] += local[i];
   }
-  for (std::size_t i = top_.size(); i-- > 0;) substitute(top_[i], x, below);
+  for (std::size_t i = top_.size(); i-- > 0;) substitute<Number>(top_[i], x, local);
   parallel_for_each(static_cast<std::ptrdiff_t>(subtrees_.size()), [&](std::ptrdiff_t t) {
     const Subtree& tree = subtrees_[static_cast<std::size_t>(t)];
-    Buffer<Double4> scratch;
-    for (int s = tree.root; s >= tree.first; --s) substitute(s, x, scratch);
+    Buffer<Row<Number>> scratch;
+    for (int s = tree.root; s >= tree.first; --s) substitute<Number>(s, x, scratch);
   });
 }
 
-void CholeskyFactor::solve(const Values& b, Values& x) const {
+/// In floats the greatest number of the scaled right-hand side becomes 1, so that none is out of their range.
+template <typename Number>
+void CholeskyFactor::solve_scaled(const Values& b, Values& x) const {
   x.resize(b.rows(), b.cols());
   const Buffer<int>& order = elimination_.order();
-  Buffer<Double4> four(static_cast<std::size_t>(b.rows()));
+  const auto scale = [&](Eigen::Index i) { return scale_.empty() ? 1.0 : scale_[i]; };
+  double size = 1.0;
+  if (precision_ == FactorPrecision::Single) {
+    size = 0.0;
+    for (Eigen::Index i = 0; i < b.rows(); ++i) {
+      for (Eigen::Index c = 0; c < b.cols(); ++c) size = std::max(size, scale(i) * std::abs(b(i, c)));
+    }
+    if (!(size > 0.0)) size = 1.0;
+  }
+  Buffer<Row<Number>> four(static_cast<std::size_t>(b.rows()));
   for (Eigen::Index first = 0; first < b.cols(); first += 4) {
     const Eigen::Index columns = std::min<Eigen::Index>(4, b.cols() - first);
-    for (Eigen::Index i = 0; i < b.rows(); ++i) {
-      Double4 row{};
-      for (Eigen::Index c = 0; c < columns; ++c) row[c] = b(i, first + c);
+    const auto for_rows = [&](const auto& work) {
+      parallel_for(b.rows(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        for (std::ptrdiff_t i = begin; i < end; ++i) work(i);
+      });
+    };
+    for_rows([&](std::ptrdiff_t i) {
+      Row<Number> row{};
+      for (Eigen::Index c = 0; c < columns; ++c) row[c] = static_cast<Number>(b(i, first + c) * (scale(i) / size));
       four[order[i]] = row;
-    }
-    solve_four(four);
-    for (Eigen::Index i = 0; i < b.rows(); ++i) {
-      for (Eigen::Index c = 0; c < columns; ++c) x(i, first + c) = four[order[i]][c];
-    }
+    });
+    solve_four<Number>(four);
+    for_rows([&](std::ptrdiff_t i) {
+      for (Eigen::Index c = 0; c < columns; ++c) x(i, first + c) = four[order[i]][c] * (scale(i) * size);
+    });
+  }
+}
+
+void CholeskyFactor::solve(const Values& b, Values& x) const {
+  if (precision_ == FactorPrecision::Double) {
+    solve_scaled<double>(b, x);
+  } else {
+    solve_scaled<float>(b, x);
   }
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "batten/double4.h"
 #include "batten/parallel/parallel.h"
 
 namespace batten {
@@ -15,75 +14,97 @@ constexpr int kPanel = 32;        ///< columns that are factored before the othe
 constexpr int kStripe = 32;       ///< columns that a task takes
 constexpr int kMostSerial = 128;  ///< rows of a front that is not worth the threads
 
-struct Unaligned {
-  Double4 value;
-} __attribute__((packed, aligned(8)));
+/// Numbers that fill a register.
+template <typename Number>
+struct Lanes {
+  static constexpr int kCount = static_cast<int>(32 / sizeof(Number));
+  using Vector __attribute__((vector_size(32))) = Number;
+  struct Unaligned {
+    Vector value;
+  } __attribute__((packed, aligned(sizeof(Number))));
 
-Double4 load(const double* from) { return reinterpret_cast<const Unaligned*>(from)->value; }
-void store(double* to, Double4 value) { reinterpret_cast<Unaligned*>(to)->value = value; }
+  static Vector load(const Number* from) { return reinterpret_cast<const Unaligned*>(from)->value; }
+  static void store(Number* to, Vector value) { reinterpret_cast<Unaligned*>(to)->value = value; }
+};
 
-/// to[0 .. 8) of four columns -= sum over k of a[k stride + 0 .. 8) * b[k stride + column].
-void subtract_block(const double* a, const double* b, std::size_t stride, int depth, double* const to[4]) {
-  Double4 sums[4][2] = {};
-  for (int k = 0; k < depth; ++k, a += stride, b += stride) {
-    const Double4 low = load(a);
-    const Double4 high = load(a + 4);
+/// to[0 .. two registers) of four columns -= sum over k of a_k[0 .. two registers) * b_k[column], where a_k and b_k are
+/// rows of one column of the front each, the first of them `stride` before the next.
+template <typename Number>
+void subtract_block(const Number* a, const Number* b, std::ptrdiff_t stride, int depth, Number* const to[4]) {
+  using Register = Lanes<Number>;
+  typename Register::Vector sums[4][2] = {};
+  for (int k = 0; k < depth; ++k, a += stride, b += stride, --stride) {
+    const typename Register::Vector low = Register::load(a);
+    const typename Register::Vector high = Register::load(a + Register::kCount);
     for (int c = 0; c < 4; ++c) {
       sums[c][0] += b[c] * low;
       sums[c][1] += b[c] * high;
     }
   }
   for (int c = 0; c < 4; ++c) {
-    store(to[c], load(to[c]) - sums[c][0]);
-    store(to[c] + 4, load(to[c] + 4) - sums[c][1]);
+    Register::store(to[c], Register::load(to[c]) - sums[c][0]);
+    Register::store(to[c] + Register::kCount, Register::load(to[c] + Register::kCount) - sums[c][1]);
   }
 }
 
 /// Entry by entry, in the same order of k.
-void subtract_entries(const double* a, const double* b, std::size_t stride, int depth, int rows, double* to) {
+template <typename Number>
+void subtract_entries(const Number* a, const Number* b, std::ptrdiff_t stride, int depth, int rows, Number* to) {
   for (int i = 0; i < rows; ++i) {
-    double sum = 0.0;
-    for (int k = 0; k < depth; ++k)
-      sum += b[static_cast<std::size_t>(k) * stride] * a[static_cast<std::size_t>(k) * stride + i];
+    Number sum = 0;
+    std::ptrdiff_t at = 0;
+    for (int k = 0; k < depth; ++k) {
+      sum += b[at] * a[at + i];
+      at += stride - k;
+    }
     to[i] -= sum;
   }
 }
 
-/// Columns [first, last) lose what the panel's columns [begin, end) take, from their diagonal down.
-void subtract_panel(Front& front, int begin, int end, int first, int last) {
-  const auto stride = static_cast<std::size_t>(front.size);
-  const double* const panel = front.column(begin);
+/// Columns [first, last) lose what the panel's columns [begin, end) take, from their diagonal down. Of a block on the
+/// diagonal the entries above it are not there: its first rows go by themselves.
+template <typename Number>
+void subtract_panel(Front<Number>& front, int begin, int end, int first, int last) {
+  constexpr int kRows = 2 * Lanes<Number>::kCount;
+  const std::ptrdiff_t stride = front.size - begin - 1;
+  const int depth = end - begin;
+  const Number* const panel = front.column(begin);
   int j = first;
   for (; j + 4 <= last; j += 4) {
-    double* const to[4] = {front.column(j), front.column(j + 1), front.column(j + 2), front.column(j + 3)};
-    int i = j;
-    for (; i + 8 <= front.size; i += 8) {
-      double* const at[4] = {to[0] + i, to[1] + i, to[2] + i, to[3] + i};
-      subtract_block(panel + i, panel + j, stride, end - begin, at);
+    Number* const to[4] = {front.column(j), front.column(j + 1), front.column(j + 2), front.column(j + 3)};
+    for (int c = 0; c < 3; ++c) {
+      const int row = j + c;
+      subtract_entries(panel + row, panel + row, stride, depth, 3 - c, to[c] + row);
     }
-    for (int c = 0; c < 4; ++c)
-      subtract_entries(panel + i, panel + j + c, stride, end - begin, front.size - i, to[c] + i);
+    int i = j + 3;
+    for (; i + kRows <= front.size; i += kRows) {
+      Number* const at[4] = {to[0] + i, to[1] + i, to[2] + i, to[3] + i};
+      subtract_block(panel + i, panel + j, stride, depth, at);
+    }
+    for (int c = 0; c < 4; ++c) {
+      subtract_entries(panel + i, panel + j + c, stride, depth, front.size - i, to[c] + i);
+    }
   }
-  for (; j < last; ++j)
-    subtract_entries(panel + j, panel + j, stride, end - begin, front.size - j, front.column(j) + j);
+  for (; j < last; ++j) subtract_entries(panel + j, panel + j, stride, depth, front.size - j, front.column(j) + j);
 }
 
 /// Factors the columns [begin, end), which have lost what those before take.
-double factor_panel(Front& front, int begin, int end, const double* diagonal) {
+template <typename Number>
+double factor_panel(Front<Number>& front, int begin, int end, const Number* diagonal) {
   double least = std::numeric_limits<double>::infinity();
   for (int j = begin; j < end; ++j) {
-    double* const column = front.column(j);
+    Number* const column = front.column(j);
     for (int k = begin; k < j; ++k) {
-      const double* const before = front.column(k);
-      const double factor = before[j];
+      const Number* const before = front.column(k);
+      const Number factor = before[j];
       for (int i = j; i < front.size; ++i) column[i] -= factor * before[i];
     }
-    const double pivot = column[j];
-    if (!(pivot > 0.0)) return -1.0;
-    least = std::min(least, pivot / diagonal[j]);
-    const double root = std::sqrt(pivot);
+    const Number pivot = column[j];
+    if (!(pivot > 0)) return -1.0;
+    least = std::min(least, static_cast<double>(pivot / diagonal[j]));
+    const Number root = std::sqrt(pivot);
     column[j] = root;
-    const double inverse = 1.0 / root;
+    const Number inverse = 1 / root;
     for (int i = j + 1; i < front.size; ++i) column[i] *= inverse;
   }
   return least;
@@ -91,12 +112,14 @@ double factor_panel(Front& front, int begin, int end, const double* diagonal) {
 
 }  // namespace
 
-void Front::reset(int new_size) {
+template <typename Number>
+void Front<Number>::reset(int new_size) {
   size = new_size;
-  entries.assign(static_cast<std::size_t>(size) * static_cast<std::size_t>(size), 0.0);
+  entries.assign(entry_count(size, size), 0);
 }
 
-double factor_front(Front& front, int width, const double* diagonal) {
+template <typename Number>
+double factor_front(Front<Number>& front, int width, const Number* diagonal) {
   double least = std::numeric_limits<double>::infinity();
   for (int begin = 0; begin < width; begin += kPanel) {
     const int end = std::min(width, begin + kPanel);
@@ -117,5 +140,10 @@ double factor_front(Front& front, int width, const double* diagonal) {
   }
   return least;
 }
+
+template struct Front<double>;
+template struct Front<float>;
+template double factor_front(Front<double>& front, int width, const double* diagonal);
+template double factor_front(Front<float>& front, int width, const float* diagonal);
 
 }  // namespace batten

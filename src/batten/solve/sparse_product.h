@@ -10,4 +10,12 @@ namespace batten {
 /// threads.
 void multiply(const Eigen::SparseMatrix<double, Eigen::RowMajor>& matrix, const Values& values, Values& result);
 
+/// Whether the matrices, compressed, have their entries in the same places.
+bool same_pattern(const Eigen::SparseMatrix<double, Eigen::RowMajor>& a,
+                  const Eigen::SparseMatrix<double, Eigen::RowMajor>& b);
+
+/// result = (a + factor b) values, without the sum; as multiply(). The matrices have the same pattern.
+void multiply_sum(const Eigen::SparseMatrix<double, Eigen::RowMajor>& a, double factor,
+                  const Eigen::SparseMatrix<double, Eigen::RowMajor>& b, const Values& values, Values& result);
+
 }  // namespace batten
