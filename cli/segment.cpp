@@ -30,6 +30,7 @@ nlohmann::ordered_json report_json(const SegmentArguments& arguments, const Segm
   nlohmann::ordered_json json = {{"mask", arguments.mask},
                                  {"labels", arguments.labels},
                                  {"points", request.points.rows()},
+                                 {"slices", found.slices},
                                  {"space", arguments.space == WorldSpace::Ras ? "RAS" : "LPS"}};
   add_surface(json, found);
   if (found.region) {
@@ -50,11 +51,17 @@ std::string region_text(const SeedRegion& region) {
   return text;
 }
 
+std::string points_text(const SegmentRequest& request, const SegmentResult& found) {
+  std::string text = count_of(request.points.rows(), "point", "points");
+  if (found.slices > 0) text += " in " + count_of(found.slices, "slice", "slices");
+  return text;
+}
+
 Table table_of(const SegmentRequest& request, const SegmentResult& found, const VolumeGrid& grid) {
   const Segmentation& result = found.surface;
   Table table;
   table.add("image", grid_text(grid));
-  if (request.points.rows() > 0) table.add("points", count_of(request.points.rows(), "point", "points"));
+  if (request.points.rows() > 0) table.add("points", points_text(request, found));
   if (found.region) table.add("seed", region_text(*found.region));
   table.add("surface",
             mesh_text(result.topology) +

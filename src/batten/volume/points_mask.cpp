@@ -7,25 +7,9 @@
 #include "batten/mesh/checked_values.h"
 #include "batten/volume/distance_transform.h"
 #include "batten/volume/label_mask.h"
-#include "batten/volume/voxel_flood.h"
+#include "batten/volume/rolling_ball.h"
 
 namespace batten {
-
-namespace {
-
-/// The voxels that no ball of the radius reaches whose centre comes from the first voxel. distances: to the points.
-VoxelFlags enclosed(const VolumeGrid& grid, const Buffer<float>& distances, double radius) {
-  Buffer<Index> marks(static_cast<std::size_t>(grid.count()), 0);
-  flood(
-      grid, 0, [&](std::ptrdiff_t voxel) { return distances[voxel] > radius; }, 1, marks);
-  const VoxelFlags centres(marks.begin(), marks.end());
-  const Buffer<float> from_centres = distance_transform(grid, centres);
-  VoxelFlags inside(centres.size());
-  for (std::size_t i = 0; i < inside.size(); ++i) inside[i] = from_centres[i] > radius ? 1 : 0;
-  return inside;
-}
-
-}  // namespace
 
 Volume points_mask(const Points& points, Index cells) {
   constexpr double kLargest = 0.5;  // of the box's diagonal
@@ -56,12 +40,14 @@ Volume points_mask(const Points& points, Index cells) {
     seeds[mask.grid.voxel(static_cast<Index>(at(0)), static_cast<Index>(at(1)), static_cast<Index>(at(2)))] = 1;
   }
   const Buffer<float> distances = distance_transform(mask.grid, seeds);
-  const auto most = static_cast<double>(count_of(largest_piece(mask.grid, enclosed(mask.grid, distances, largest))));
+  const auto most =
+      static_cast<double>(count_of(largest_piece(mask.grid, enclosed_by_ball(mask.grid, distances, largest))));
   double radius = 1.5 * cell;
-  while (radius < largest && static_cast<double>(count_of(
-                                 largest_piece(mask.grid, enclosed(mask.grid, distances, radius)))) < kOfLargest * most)
+  while (radius < largest && static_cast<double>(count_of(largest_piece(
+                                 mask.grid, enclosed_by_ball(mask.grid, distances, radius)))) < kOfLargest * most)
     radius *= kGrowth;
-  const VoxelFlags inside = largest_piece(mask.grid, enclosed(mask.grid, distances, std::min(largest, kSafe * radius)));
+  const VoxelFlags inside =
+      largest_piece(mask.grid, enclosed_by_ball(mask.grid, distances, std::min(largest, kSafe * radius)));
   if (count_of(inside) == 0)
     throw Error(ErrorCode::BadArgument, "the points enclose nothing; give more points around the part");
   mask.values.resize(inside.size());
