@@ -121,6 +121,8 @@ int main() {
   std::vector<double> cerebellum;
   for (int label = 91; label <= 108; ++label) cerebellum.push_back(label);
   bench::print_spread(brain, atlas, cerebellum, "cerebellum (91 to 108)");
+  for (int label = 109; label <= 116; ++label) cerebellum.push_back(label);
+  bench::print_spread(brain, atlas, cerebellum, "cerebellum with its vermis (91 to 116)");
   bench::print_spread(macaque, parts, {98.0}, "macaque, putamen (98)");
   bench::print_spread(macaque, parts, {1098.0}, "macaque, putamen (1098)");
 }

@@ -27,11 +27,10 @@ FrameWatcher watch_in_space(const FrameWatcher& watch, WorldSpace space) {
 
 nlohmann::ordered_json report_json(const SegmentArguments& arguments, const SegmentRequest& request,
                                    const SegmentResult& found) {
-  nlohmann::ordered_json json = {{"mask", arguments.mask},
-                                 {"labels", arguments.labels},
-                                 {"points", request.points.rows()},
-                                 {"slices", found.slices},
-                                 {"space", arguments.space == WorldSpace::Ras ? "RAS" : "LPS"}};
+  nlohmann::ordered_json json = {
+      {"mask", arguments.mask},          {"labels", arguments.labels},
+      {"points", request.points.rows()}, {"slices", found.slices},
+      {"left_out", found.left_out},      {"space", arguments.space == WorldSpace::Ras ? "RAS" : "LPS"}};
   add_surface(json, found);
   if (found.region) {
     json["seed"] = arguments.seed;
@@ -54,6 +53,8 @@ std::string region_text(const SeedRegion& region) {
 std::string points_text(const SegmentRequest& request, const SegmentResult& found) {
   std::string text = count_of(request.points.rows(), "point", "points");
   if (found.slices > 0) text += " in " + count_of(found.slices, "slice", "slices");
+  if (found.left_out > 0)
+    text += fmt::format("; {} left out, deep in gaps that are narrower than points are apart", found.left_out);
   return text;
 }
 

@@ -56,6 +56,7 @@ struct Beginning {
   std::optional<SeedRegion> region;  ///< of a seed
   std::optional<Volume> filled;      ///< what points in slices enclose
   Index slices = 0;
+  Points points = Points(0, 3);  ///< without those in gaps
 };
 
 /// What the edges of the image draw.
@@ -63,11 +64,15 @@ Segmentation first_surface(const Volume& image, const SegmentRequest& request, S
                            const Volume* mask, Beginning& beginning, const Progress& progress) {
   if (request.start) return started_from(*request.start, image, request.surface.scheme);
   if (request.points.rows() > 0) {
-    if (const std::optional<PointSlices> slices = find_slices(request.points)) {
-      beginning.slices = static_cast<Index>(slices->levels.size());
-      beginning.filled = slices_mask(request.points, *slices);
+    const std::optional<PointSlices> slices = find_slices(request.points);
+    if (!slices) {
+      beginning.points = request.points(points_outside_gaps(request.points), Eigen::all);
+      return segment_mask(points_mask(beginning.points), options, progress);
     }
-    return segment_mask(beginning.filled ? *beginning.filled : points_mask(request.points), options, progress);
+    beginning.points = request.points;
+    beginning.slices = static_cast<Index>(slices->levels.size());
+    beginning.filled = slices_mask(request.points, *slices);
+    return segment_mask(*beginning.filled, options, progress);
   }
   if (request.seed) {
     beginning.region = seed_region(image, *request.seed, request.seed_options, progress_within(progress, 0.0, 0.2));
@@ -112,7 +117,7 @@ SegmentResult measured_segment(Segmentation surface, const Volume& image, const 
   if (!is_closed(surface.topology, surface.mesh.points))
     throw Error(ErrorCode::NotConverged,
                 "the part is too thin for so few control points: its surface does not close; take more of them");
-  SegmentResult result{std::move(surface), {}, 0, {}, {}, {}};
+  SegmentResult result{std::move(surface), {}, 0, 0, {}, {}, {}};
   const Segmentation& found = result.surface;
   result.measures = measure_surface(found.topology, found.scheme, found.mesh, progress_within(progress, 0.0, 0.5));
   report_progress(progress, 0.5);
@@ -139,11 +144,12 @@ SegmentResult segment_volume(const Volume& image, const SegmentRequest& request,
   if (drawn) {
     ImageFitOptions options = image_options(request, beginning);
     if (!options.watch) options.watch = first.watch;
-    surface = segment_image(surface, image, request.points, options, progress_within(progress, 0.5 * kFound, kFound));
+    surface = segment_image(surface, image, beginning.points, options, progress_within(progress, 0.5 * kFound, kFound));
   }
   SegmentResult result = measured_segment(std::move(surface), image, mask, progress_within(progress, kFound, 1.0));
   result.region = std::move(beginning.region);
   result.slices = beginning.slices;
+  result.left_out = static_cast<Index>(request.points.rows() - beginning.points.rows());
   return result;
 }
 

@@ -33,6 +33,7 @@ struct SegmentResult {
   Segmentation surface;
   std::optional<SeedRegion> region;  ///< of a seed
   Index slices = 0;                  ///< that the points lie in (find_slices()); 0 where they lie in none
+  Index left_out = 0;                ///< points in gaps, to which the surface is not drawn (points_outside_gaps())
   SurfaceMeasures measures;
   std::optional<MaskAgreement> agreement;  ///< with labels
   EdgeStrength edges;
