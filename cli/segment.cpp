@@ -27,10 +27,10 @@ FrameWatcher watch_in_space(const FrameWatcher& watch, WorldSpace space) {
 
 nlohmann::ordered_json report_json(const SegmentArguments& arguments, const SegmentRequest& request,
                                    const SegmentResult& found) {
-  nlohmann::ordered_json json = {{"mask", arguments.mask},
-                                 {"labels", arguments.labels},
-                                 {"points", request.points.rows()},
-                                 {"space", arguments.space == WorldSpace::Ras ? "RAS" : "LPS"}};
+  nlohmann::ordered_json json = {
+      {"mask", arguments.mask},          {"labels", arguments.labels},
+      {"points", request.points.rows()}, {"slices", found.slices},
+      {"left_out", found.left_out},      {"space", arguments.space == WorldSpace::Ras ? "RAS" : "LPS"}};
   add_surface(json, found);
   if (found.region) {
     json["seed"] = arguments.seed;
@@ -50,11 +50,19 @@ std::string region_text(const SeedRegion& region) {
   return text;
 }
 
+std::string points_text(const SegmentRequest& request, const SegmentResult& found) {
+  std::string text = count_of(request.points.rows(), "point", "points");
+  if (found.slices > 0) text += " in " + count_of(found.slices, "slice", "slices");
+  if (found.left_out > 0)
+    text += fmt::format("; {} left out, deep in gaps that are narrower than points are apart", found.left_out);
+  return text;
+}
+
 Table table_of(const SegmentRequest& request, const SegmentResult& found, const VolumeGrid& grid) {
   const Segmentation& result = found.surface;
   Table table;
   table.add("image", grid_text(grid));
-  if (request.points.rows() > 0) table.add("points", count_of(request.points.rows(), "point", "points"));
+  if (request.points.rows() > 0) table.add("points", points_text(request, found));
   if (found.region) table.add("seed", region_text(*found.region));
   table.add("surface",
             mesh_text(result.topology) +

@@ -106,6 +106,7 @@
 #include "batten/volume/image_forces.h"
 #include "batten/volume/inside_volume.h"
 #include "batten/volume/label_mask.h"
+#include "batten/volume/point_slices.h"
 #include "batten/volume/points_mask.h"
 #include "batten/volume/recursive_filter.h"
 #include "batten/volume/segment.h"
@@ -113,6 +114,7 @@
 #include "batten/volume/segment_together.h"
 #include "batten/volume/segment_volume.h"
 #include "batten/volume/slice.h"
+#include "batten/volume/slices_mask.h"
 #include "batten/volume/spline_field.h"
 #include "batten/volume/volume.h"
 

@@ -11,6 +11,7 @@
 #include "batten/volume/points_mask.h"
 #include "batten/volume/segment.h"
 #include "batten/volume/segment_measures.h"
+#include "batten/volume/segment_volume.h"
 #include "support/errors.h"
 #include "volume/phantoms.h"
 
@@ -91,6 +92,35 @@ TEST(PointsMask, RefusesWhatEnclosesNothing) {
   Points flat = points_on_ball(30, 1.0);
   flat.col(2).setZero();
   test::expect_error([&] { points_mask(flat); }, ErrorCode::BadArgument, "plane");
+}
+
+TEST(PointsOutsideGaps, AreAllOfARoundOrBentBody) {
+  EXPECT_EQ(points_outside_gaps(points_on_ball(60, 10.0)).size(), 60U);
+  // A tube of width 4 bent to three quarters of a circle of radius 8: its inside is open to a ball.
+  const Points dense = points_on_ball(100, 1.0);
+  Points bent(100, 3);
+  for (Index i = 0; i < 100; ++i) {
+    const double turn = 2.3 * dense(i, 2);
+    const double around = std::atan2(dense(i, 1), dense(i, 0));
+    const double far = 8.0 + 2.0 * std::cos(around);
+    bent.row(i) << far * std::cos(turn), far * std::sin(turn), 2.0 * std::sin(around);
+  }
+  EXPECT_EQ(points_outside_gaps(bent).size(), 100U);
+}
+
+TEST(PointsOutsideGaps, AreNotThoseDeepInside) {
+  const Points round = points_on_ball(60, 10.0);
+  Points points(63, 3);
+  points << round.topRows(30), 0.6 * round.row(3), 0.4 * round.row(40), Points::Zero(1, 3), round.bottomRows(30);
+  const std::vector<Eigen::Index> rows = points_outside_gaps(points);
+  EXPECT_EQ(points(rows, Eigen::all), round);
+  SegmentRequest request;
+  request.points = points;
+  request.surface.vertices = 100;
+  const SegmentResult found = segment_volume(blurred_ball(10.0), request);
+  EXPECT_EQ(found.left_out, 3);
+  EXPECT_EQ(found.slices, 0);
+  EXPECT_NEAR(found.measures.volume, 4.0 / 3.0 * std::numbers::pi * 1000.0, 0.02 * found.measures.volume);
 }
 
 TEST(SegmentImage, ABallComesOutOfAFewPointsAndTheImage) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "batten/error.h"
@@ -42,6 +43,13 @@ TEST(SegmentMask, ABallIsRound) {
   const MaskAgreement agreement = compare_with_mask(measures.fine, label_mask(ball, {}));
   EXPECT_GT(agreement.dice, 0.98);
   EXPECT_NEAR(measures.volume, agreement.mask_volume, 0.02 * agreement.mask_volume);
+}
+
+TEST(SegmentMask, SaysThatAPartOfTwoVoxelsIsTooSmall) {
+  const Volume two = test::made_volume(test::centred_grid(9), [](const Eigen::Vector3d& at) {
+    return std::abs(at[1]) < 0.5 && std::abs(at[2]) < 0.5 && at[0] > -0.5 && at[0] < 1.5 ? 1 : 0;
+  });
+  test::expect_error([&] { segmented(two); }, ErrorCode::BadArgument, "only 10 outer faces");
 }
 
 TEST(SegmentMask, TheWorldsSurfaceDoesNotDependOnTheOrderOfIndices) {

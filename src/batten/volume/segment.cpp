@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "batten/error.h"
 #include "batten/fit/first_mesh.h"
@@ -23,6 +24,15 @@ void require_options(const SegmentOptions& options) {
     throw Error(ErrorCode::BadArgument, "segments have Catmull-Clark or Loop surfaces");
   if (!(options.smoothing >= 0.0) || !std::isfinite(options.smoothing))
     throw Error(ErrorCode::BadArgument, "the smoothing is 0 voxels or more");
+}
+
+/// count: of the faces between the part's voxels and others. first_mesh() takes 20 points or more.
+void require_faces(Eigen::Index count) {
+  constexpr Eigen::Index kFewest = 20;
+  if (count < kFewest)
+    throw Error(ErrorCode::BadArgument, "the part has only " + std::to_string(count) +
+                                            " outer faces of voxels, too few for a surface; resample the volume to "
+                                            "smaller voxels, or leave the part out");
 }
 
 /// The rounds: fairness falls until the surface is near enough. Returns that of the last step.
@@ -58,6 +68,7 @@ double draw_to_border(SurfaceFitter& fitter, GuardedSteps& steps, double wanted,
 Segmentation segment_mask(const Volume& mask, const SegmentOptions& options, const Progress& progress) {
   require_options(options);
   const PointCloud border = mask_border(mask);
+  require_faces(border.points.rows());
   FirstMeshOptions first;
   first.faces = options.scheme.kind == SchemeKind::Loop ? FaceKind::Triangles : FaceKind::Quads;
   first.vertices = options.vertices;

@@ -2,6 +2,7 @@
 #pragma once
 #include <optional>
 
+#include "batten/fit/point_cloud.h"
 #include "batten/fit/surface_film.h"
 #include "batten/mesh/mesh.h"
 #include "batten/mesh/topology.h"
@@ -55,7 +56,9 @@ struct ImageFitOptions {
   /// Moves the surface off the edges to where its own image, blurred, is most like the one that is there
   /// (volume/image_model.h); not with points.
   bool leave_blur = true;
-  FrameWatcher watch;  ///< is shown the start and the surface after each step
+  PointCloud held;             ///< with normals, holds the surface between the points: mask_border() of slices_mask()
+  double held_weight = 100.0;  ///< of all of it together beside all edges together
+  FrameWatcher watch;          ///< is shown the start and the surface after each step
 };
 
 /// Draws a surface to the edges of an image and to points. In each round every place of a grid on the surface looks

@@ -35,21 +35,30 @@ std::vector<SurfacePlace> places_of(const SurfaceSamples& samples) {
   return places;
 }
 
-/// The edges that were found and the points, each with its weight, as what the surface is drawn to.
-void set_targets(SurfaceFitter& fitter, const PointCloud& places, const FoundEdges& edges, const Points& points,
-                 double point_weight) {
+/// What draws a surface besides edges. Both weights are of all of a kind together, beside all edges.
+struct Holds {
+  const Points& points;
+  double point_weight;
+  const PointCloud& held;
+  double held_weight;
+};
+
+/// The edges that were found and what holds besides, each with its weight, as what the surface is drawn to.
+void set_targets(SurfaceFitter& fitter, const PointCloud& places, const FoundEdges& edges, const Holds& holds) {
   const Eigen::Index count = places.points.rows();
+  const Eigen::Index points = holds.points.rows();
+  const Eigen::Index held = holds.held.points.rows();
+  const double all = std::max(edges.weights.sum(), 1e-3 * static_cast<double>(count));
   PointCloud cloud;
-  cloud.points.resize(count + points.rows(), 3);
-  cloud.points << edges.places, points;
+  cloud.points.resize(count + points + held, 3);
+  cloud.points << edges.places, holds.points, holds.held.points;
   cloud.normals = Points::Zero(cloud.points.rows(), 3);
   cloud.normals.topRows(count) = places.normals;
+  cloud.normals.bottomRows(held) = holds.held.normals;
   Scalars weights(cloud.points.rows());
   weights.head(count) = edges.weights;
-  if (points.rows() > 0)
-    weights.tail(points.rows())
-        .setConstant(point_weight * std::max(edges.weights.sum(), 1e-3 * static_cast<double>(count)) /
-                     static_cast<double>(points.rows()));
+  if (points > 0) weights.segment(count, points).setConstant(holds.point_weight * all / static_cast<double>(points));
+  if (held > 0) weights.tail(held).setConstant(holds.held_weight * all / static_cast<double>(held));
   // Places without an edge hold the surface a little where it is.
   weights.head(count).array() += 1e-3;
   fitter.set_cloud(std::move(cloud));
@@ -58,8 +67,8 @@ void set_targets(SurfaceFitter& fitter, const PointCloud& places, const FoundEdg
 
 void require_options(const ImageFitOptions& options) {
   const bool good = options.smoothing > 0.0 && options.reach > 0.0 && options.point_weight >= 0.0 &&
-                    options.first_smoothing >= 1.0 && options.first_reach >= 1.0 && options.fairness > 0.0 &&
-                    options.rounds >= 1;
+                    options.held_weight >= 0.0 && options.first_smoothing >= 1.0 && options.first_reach >= 1.0 &&
+                    options.fairness > 0.0 && options.rounds >= 1;
   if (!good) throw Error(ErrorCode::BadArgument, "smoothing, reach and fairness are greater than 0, rounds 1 or more");
 }
 
@@ -82,7 +91,7 @@ class ImageRounds {
   /// early: 1 at first, 0 in the end.
   void take(double early) {
     const FoundEdges edges = find(early);
-    set_targets(fitter_, places_, edges, points_, options_.point_weight * std::pow(kPointsFirst, early));
+    set_targets(fitter_, places_, edges, holds(std::pow(kPointsFirst, early)));
     step(options_.fairness * std::pow(std::max(1.0, kFirstFairness / options_.fairness), early));
   }
 
@@ -108,7 +117,7 @@ class ImageRounds {
       const ModelMoves asked = model.moves(places_.points, places_.normals);
       if (round > 0) model.learn_blur();
       if (round > 0 && round % kRoundsOfHold == 0) held += asked.weights.cwiseProduct(asked.moves);
-      set_targets(fitter_, places_, mixed(edges, asked, held), points_, options_.point_weight);
+      set_targets(fitter_, places_, mixed(edges, asked, held), holds(1.0));
       step(options_.fairness * fairness_of_noise(model.noise()));
     }
   }
@@ -143,6 +152,10 @@ class ImageRounds {
       targets.places.row(row) = places_.points.row(row) + (trust + other > 0.0 ? move / (trust + other) : 0.0) * normal;
     }
     return targets;
+  }
+
+  Holds holds(double times) const {
+    return {points_, times * options_.point_weight, options_.held, times * options_.held_weight};
   }
 
   void look() {

@@ -9,6 +9,7 @@
 #include "batten/refine/refinement.h"
 #include "batten/volume/label_mask.h"
 #include "batten/volume/points_mask.h"
+#include "batten/volume/slices_mask.h"
 
 namespace batten {
 
@@ -50,14 +51,32 @@ Segmentation started_from(const Mesh& mesh, const Volume& image, Scheme scheme) 
   return start;
 }
 
-/// What the edges of the image draw, and the region of a seed.
+/// What is found on the way to the first surface.
+struct Beginning {
+  std::optional<SeedRegion> region;  ///< of a seed
+  std::optional<Volume> filled;      ///< what points in slices enclose
+  Index slices = 0;
+  Points points = Points(0, 3);  ///< without those in gaps
+};
+
+/// What the edges of the image draw.
 Segmentation first_surface(const Volume& image, const SegmentRequest& request, SegmentOptions options,
-                           const Volume* mask, std::optional<SeedRegion>& region, const Progress& progress) {
+                           const Volume* mask, Beginning& beginning, const Progress& progress) {
   if (request.start) return started_from(*request.start, image, request.surface.scheme);
-  if (request.points.rows() > 0) return segment_mask(points_mask(request.points), options, progress);
+  if (request.points.rows() > 0) {
+    const std::optional<PointSlices> slices = find_slices(request.points);
+    if (!slices) {
+      beginning.points = request.points(points_outside_gaps(request.points), Eigen::all);
+      return segment_mask(points_mask(beginning.points), options, progress);
+    }
+    beginning.points = request.points;
+    beginning.slices = static_cast<Index>(slices->levels.size());
+    beginning.filled = slices_mask(request.points, *slices);
+    return segment_mask(*beginning.filled, options, progress);
+  }
   if (request.seed) {
-    region = seed_region(image, *request.seed, request.seed_options, progress_within(progress, 0.0, 0.2));
-    return segment_mask(region->mask, options, progress_within(progress, 0.2, 1.0));
+    beginning.region = seed_region(image, *request.seed, request.seed_options, progress_within(progress, 0.0, 0.2));
+    return segment_mask(beginning.region->mask, options, progress_within(progress, 0.2, 1.0));
   }
   if (!options.within) options.within = request.labels ? request.labels->grid : image.grid;
   return segment_mask(*mask, options, progress);
@@ -73,16 +92,19 @@ FrameWatcher without_repeats(const FrameWatcher& watch) {
   };
 }
 
-/// What draws a surface to edges, where nothing is said: seeds and meshes lie near them already.
-ImageFitOptions image_options(const SegmentRequest& request) {
+/// What draws a surface to edges, where nothing is said: most starts lie near them already, and slices say more.
+ImageFitOptions image_options(const SegmentRequest& request, const Beginning& beginning) {
   constexpr double kNearFairness = 0.05;
   constexpr int kNearRounds = 12;
+  constexpr double kHeldFairness = 0.01;
+  constexpr int kHeldRounds = 8;
   ImageFitOptions options = request.image.value_or(ImageFitOptions{});
-  if (!request.image && (request.seed || request.start)) {
-    options.fairness = kNearFairness;
+  if (beginning.filled && options.held.points.rows() == 0) options.held = mask_border(*beginning.filled);
+  if (!request.image && (request.seed || request.start || beginning.filled)) {
+    options.fairness = beginning.filled ? kHeldFairness : kNearFairness;
     options.first_smoothing = 1.0;
     options.first_reach = 1.0;
-    options.rounds = kNearRounds;
+    options.rounds = beginning.filled ? kHeldRounds : kNearRounds;
   }
   return options;
 }
@@ -95,7 +117,7 @@ SegmentResult measured_segment(Segmentation surface, const Volume& image, const 
   if (!is_closed(surface.topology, surface.mesh.points))
     throw Error(ErrorCode::NotConverged,
                 "the part is too thin for so few control points: its surface does not close; take more of them");
-  SegmentResult result{std::move(surface), {}, {}, {}, {}};
+  SegmentResult result{std::move(surface), {}, 0, 0, {}, {}, {}};
   const Segmentation& found = result.surface;
   result.measures = measure_surface(found.topology, found.scheme, found.mesh, progress_within(progress, 0.0, 0.5));
   report_progress(progress, 0.5);
@@ -116,16 +138,18 @@ SegmentResult segment_volume(const Volume& image, const SegmentRequest& request,
   const bool drawn = started || request.edges;
   std::optional<Volume> mask;
   if (!started || request.labels) mask = label_mask(request.labels ? *request.labels : image, request.label);
-  std::optional<SeedRegion> region;
-  Segmentation surface = first_surface(image, request, first, mask ? &*mask : nullptr, region,
+  Beginning beginning;
+  Segmentation surface = first_surface(image, request, first, mask ? &*mask : nullptr, beginning,
                                        progress_within(progress, 0.0, drawn ? 0.5 * kFound : kFound));
   if (drawn) {
-    ImageFitOptions options = image_options(request);
+    ImageFitOptions options = image_options(request, beginning);
     if (!options.watch) options.watch = first.watch;
-    surface = segment_image(surface, image, request.points, options, progress_within(progress, 0.5 * kFound, kFound));
+    surface = segment_image(surface, image, beginning.points, options, progress_within(progress, 0.5 * kFound, kFound));
   }
   SegmentResult result = measured_segment(std::move(surface), image, mask, progress_within(progress, kFound, 1.0));
-  result.region = std::move(region);
+  result.region = std::move(beginning.region);
+  result.slices = beginning.slices;
+  result.left_out = static_cast<Index>(request.points.rows() - beginning.points.rows());
   return result;
 }
 

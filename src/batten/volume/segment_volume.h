@@ -15,8 +15,10 @@ struct SegmentRequest {
   /// The volume of labels, on a grid of its own; without, the image itself is one. Where the surface starts from
   /// something else, labels are only compared with.
   std::optional<Volume> labels;
-  std::vector<double> label;            ///< one, or several as one; empty: all numbers but 0
-  Points points = Points(0, 3);         ///< on the part's border, in the world: start and targets (points_mask())
+  std::vector<double> label;  ///< one, or several as one; empty: all numbers but 0
+  /// On the part's border, in the world: start (slices_mask() where they lie in slices, else points_mask()) and
+  /// targets.
+  Points points = Points(0, 3);
   std::optional<Eigen::Vector3d> seed;  ///< in the part, in the world: the start is seed_region()
   SeedOptions seed_options;
   std::optional<Mesh> start;  ///< a closed control mesh, in the world
@@ -30,6 +32,8 @@ struct SegmentRequest {
 struct SegmentResult {
   Segmentation surface;
   std::optional<SeedRegion> region;  ///< of a seed
+  Index slices = 0;                  ///< that the points lie in (find_slices()); 0 where they lie in none
+  Index left_out = 0;                ///< points in gaps, to which the surface is not drawn (points_outside_gaps())
   SurfaceMeasures measures;
   std::optional<MaskAgreement> agreement;  ///< with labels
   EdgeStrength edges;
