@@ -6,6 +6,7 @@
 #include <numbers>
 #include <set>
 
+#include "batten/fit/belonging.h"
 #include "batten/fit/enclosing_sphere.h"
 #include "batten/fit/normal_equations.h"
 #include "batten/fit/outliers.h"
@@ -146,6 +147,40 @@ TEST(OutlierFilter, KeepsAPartThatIsFarAsAWhole) {
   Buffer<std::uint8_t> flags(1000, 0);
   filter.add_far(distances, flags);
   EXPECT_EQ(std::count(flags.begin(), flags.end(), 1), 0);
+}
+
+/// A flat square, on a grid, of which the surface has been 1e-3 away with noise of 1e-4, a rim has not been reached,
+/// and one point in it is off its neighbours by 0.02, a fifth of their distance. Others lie far away, or none do.
+TEST(Belonging, TellsAPointOffItsNeighboursFromARimThatIsFarAsAWhole) {
+  constexpr Index kSide = 20;
+  CloudMaker maker(2);
+  Points points(kSide * kSide + 8, 3);
+  Points offsets = Points::Zero(points.rows(), 3);
+  for (Index i = 0; i < kSide * kSide; ++i) {
+    points.row(i) << 0.1 * (i % kSide), 0.1 * (i / kSide), 0.0;
+    const double rim = std::max(0.0, points(i, 0) - 1.45);
+    offsets.row(i) << 0.0, 0.0, 1e-3 + maker.uniform(-1e-4, 1e-4) + rim;
+  }
+  constexpr Index kOff = 5 * kSide + 7;
+  offsets(kOff, 2) += 0.02;
+  for (Index i = kSide * kSide; i < points.rows(); ++i) {
+    points.row(i) << maker.uniform(0.0, 2.0), maker.uniform(0.0, 2.0), maker.uniform(0.5, 2.0);
+    offsets(i, 2) = points(i, 2);
+  }
+  const NeighbourTable neighbours = find_neighbours(PointTree(points), 12);
+  Buffer<std::uint8_t> far(static_cast<std::size_t>(points.rows()), 0);
+  EXPECT_EQ(belonging({points, neighbours, far, 0.1}, offsets).minCoeff(), 1.0) << "there are no outliers";
+  std::fill(far.begin() + kSide * kSide, far.end(), std::uint8_t{1});
+  const Scalars belong = belonging({points, neighbours, far, 0.1}, offsets);
+  for (Index i = 0; i < kSide * kSide; ++i) {
+    if (i == kOff) continue;
+    EXPECT_GT(belong[i], 0.9) << i;
+  }
+  EXPECT_LT(belong[kOff], 1e-3);
+  EXPECT_EQ(belong.tail(8).maxCoeff(), 0.0);
+  points.col(2) *= 1e-12;
+  const Scalars flat = belonging({points, neighbours, far, 0.1}, offsets);
+  EXPECT_LT((flat.head(kOff) - belong.head(kOff)).cwiseAbs().maxCoeff(), 0.1) << "a flat box has no endless density";
 }
 
 TEST(SurfaceFitter, StepsNeedNormals) {

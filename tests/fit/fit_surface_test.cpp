@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <vector>
 
+#include "batten/fit/followed_cloud.h"
 #include "batten/fit/surface_fitter.h"
 #include "batten/io/io.h"
 #include "batten/mesh/primitives.h"
@@ -178,14 +181,42 @@ TEST(FitSurface, TakesRepeatedPointsOnce) {
   EXPECT_NEAR(one.report.to_surface.rms, three.report.to_surface.rms, 1e-9);
 }
 
-/// The points of a sphere and one in ten anywhere in its box.
+double rms_of_first(const FitResult& fit, Index count) {
+  return fit.distances.head(count).norm() / std::sqrt(static_cast<double>(count));
+}
+
+/// The points of a sphere and one in ten anywhere in its box: the others are found as exactly as without, within what
+/// the chance of control points makes.
 TEST(FitSurface, DoesNotFollowOutliers) {
   const Points clean = CloudMaker().sphere(1500);
   FitOptions options = quick(100);
   options.start = FitStart::Sphere;
-  const FitResult fit = fit_surface({CloudMaker(5).with_outliers(clean, 0.1), Points(0, 3)}, options);
-  EXPECT_GT(fit.report.outliers, 60) << "many of the 150 are far from the sphere";
-  EXPECT_LT(fit.distances.head(clean.rows()).norm() / std::sqrt(1500.0), 0.01);
+  const double without = rms_of_first(fit_surface({clean, Points(0, 3)}, options), 1500);
+  for (const SchemeKind kind : {SchemeKind::CatmullClark, SchemeKind::Loop}) {
+    options.scheme.kind = kind;
+    options.start = kind == SchemeKind::Loop ? FitStart::Auto : FitStart::Sphere;
+    const FitResult fit = fit_surface({CloudMaker(5).with_outliers(clean, 0.1), Points(0, 3)}, options);
+    EXPECT_GE(fit.report.outliers, 145) << "of 150, one in four of which is nearer than a point's neighbours";
+    EXPECT_LE(fit.report.outliers, 152);
+    EXPECT_LT(rms_of_first(fit, 1500), (kind == SchemeKind::Loop ? 4.0 : 1.5) * without);
+    EXPECT_EQ(fit.report.unsound, 0);
+  }
+}
+
+/// Outliers that are named by the flags of the first rounds stay out of the normals and of the first mesh.
+TEST(FollowedCloud, HasNormalsWithoutOutliers) {
+  const Points clean = CloudMaker().sphere(400);
+  const Points all = CloudMaker(3).with_outliers(clean, 0.2);
+  Buffer<std::uint8_t> outliers(480, 0);
+  std::fill(outliers.begin() + 400, outliers.end(), std::uint8_t{1});
+  const FollowedCloud cloud({all, Points(0, 3)}, outliers);
+  EXPECT_EQ(cloud.followed().points, clean);
+  EXPECT_EQ(cloud.followed().normals, estimate_normals(clean));
+  EXPECT_EQ(cloud.all().points, all);
+  EXPECT_EQ(cloud.all().normals.topRows(400), cloud.followed().normals);
+  const FollowedCloud whole({clean, Points(0, 3)}, Buffer<std::uint8_t>(400, 0));
+  EXPECT_EQ(whole.followed().points, clean);
+  EXPECT_EQ(whole.all().normals, whole.followed().normals);
 }
 
 /// Counted again on a finer tessellation than the fit looks at.
@@ -265,25 +296,52 @@ TEST(FitSurface, ReportsProgressThatNeverFalls) {
   EXPECT_GT(last, 0.8);
 }
 
-/// Cancelled at every moment: either nothing, or the surface of a whole round.
-TEST(FitSurface, KeepsTheLastWholeRoundWhenCancelled) {
-  const PointCloud cloud{CloudMaker().sphere(300), Points(0, 3)};
-  FitOptions options = quick(100);
-  options.start = FitStart::Sphere;
+/// Cancelled at every moment: nothing before the first round, and a whole surface from then on.
+void expect_surfaces_kept(const Points& points, const FitOptions& options, int step) {
   bool kept = false;
-  for (int most = 0; most < 40; most += 3) {
+  bool ended = false;
+  for (int most = 0; !ended; most += step) {
     int calls = 0;
     try {
-      const FitResult fit = fit_surface(cloud, options, [&](double) { return ++calls <= most; });
-      if (fit.report.end != FitEnd::Cancelled) break;
+      const FitResult fit = fit_surface({points, Points(0, 3)}, options, [&](double) { return ++calls <= most; });
       kept = true;
+      ended = fit.report.end != FitEnd::Cancelled;
       EXPECT_FALSE(fit.report.rounds.empty());
       EXPECT_TRUE(fit.mesh.points.allFinite());
+      EXPECT_EQ(fit.scheme.kind, options.scheme.kind);
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ErrorCode::Cancelled);
+      EXPECT_FALSE(kept) << "there was a surface after fewer calls than " << most;
     }
   }
-  EXPECT_TRUE(kept);
+}
+
+TEST(FitSurface, KeepsTheLastWholeRoundWhenCancelled) {
+  FitOptions options = quick(100);
+  options.start = FitStart::Sphere;
+  expect_surfaces_kept(CloudMaker().sphere(300), options, 3);
+}
+
+/// Between rounds that look for outliers and those of the fit, too.
+TEST(FitSurface, KeepsASurfaceWhileItLooksForOutliers) {
+  FitOptions options = quick(60);
+  options.scheme.kind = SchemeKind::Loop;
+  options.rounds = 4;
+  expect_surfaces_kept(CloudMaker(5).with_outliers(CloudMaker().sphere(400), 0.1), options, 17);
+}
+
+/// The points of a box begin a fit with creases and one without.
+TEST(FitSurface, KeepsASurfaceBetweenItsTwoBeginnings) {
+  CloudMaker maker(4);
+  Points box(600, 3);
+  for (Index i = 0; i < 600; ++i) {
+    for (Index c = 0; c < 3; ++c) box(i, c) = maker.uniform(-1.0, 1.0);
+    box(i, i % 3) = i % 2 == 0 ? 1.0 : -1.0;
+  }
+  FitOptions options = quick(60);
+  options.rounds = 4;
+  ASSERT_FALSE(fit_surface({box, Points(0, 3)}, options).mesh.creases.empty()) << "both beginnings are made";
+  expect_surfaces_kept(box, options, 17);
 }
 
 }  // namespace

@@ -15,11 +15,12 @@ struct FitAttempt {
   Buffer<std::uint8_t> outliers = {};  ///< one flag a point
 };
 
-/// Makes all rounds. cloud: with normals, no two points at the same place, in an order that depends on their places
-/// alone; filter: of these points; diameter: of the whole cloud. Creases that were found under Catmull-Clark stay only
-/// where the first rounds come nearer to the points with them than without: the edges of quads may not follow the sharp
-/// edges of few points. Loop's moves have judged them one by one. When progress asks to stop after the first round,
-/// what has been reached is returned. Throws as fit_surface().
+/// Makes all rounds. cloud: with normals or without, no two points at the same place, in an order that depends on their
+/// places alone; filter: of these points; diameter: of the whole cloud. Where
+/// there are lonely points, others may be outliers near the surface: these are sought before. Creases that were found
+/// under Catmull-Clark stay only where the first rounds come nearer to the points with them than without: the edges of
+/// quads may not follow the sharp edges of few points. Loop's moves have judged them one by one. When progress asks to
+/// stop after the first round, what has been reached is returned. Throws as fit_surface().
 FitAttempt make_fit(const PointCloud& cloud, const FitOptions& options, const OutlierFilter& filter, double diameter,
                     const Progress& progress);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <utility>
-#include <vector>
 
 #include "batten/fit/first_mesh.h"
 #include "batten/fit/fit_levels.h"
@@ -14,26 +13,22 @@ namespace batten {
 namespace {
 
 /// A Loop mesh of the shape of a finer one, by moves that each make the surface better.
-Mesh moved_mesh(const PointCloud& cloud, const OutlierFilter& filter, const FitOptions& options, FirstMeshOptions first,
+Mesh moved_mesh(const PointCloud& cloud, double spacing, const FitOptions& options, FirstMeshOptions first,
                 const Progress& progress) {
   constexpr Index kOfMoved = 2;
   constexpr Index kLeast = 50;
   LoopMoveOptions moves;
   moves.vertices = first.vertices;
-  moves.spacing = filter.spacing();
+  moves.spacing = spacing;
   moves.creases = options.creases == FitCreases::Auto;
   first.vertices = std::max(kLeast, kOfMoved * first.vertices);
   const Mesh fine = first_mesh(cloud, first, progress_within(progress, 0.0, 0.2)).mesh;
-  std::vector<Eigen::Index> followed;
-  for (Eigen::Index i = 0; i < cloud.points.rows(); ++i) {
-    if (filter.lonely()[static_cast<std::size_t>(i)] == 0) followed.push_back(i);
-  }
-  return improve_loop_mesh(fine, cloud.points(followed, Eigen::all), moves, progress_within(progress, 0.2, 1.0));
+  return improve_loop_mesh(fine, cloud.points, moves, progress_within(progress, 0.2, 1.0));
 }
 
 }  // namespace
 
-FitBeginning find_beginning(const PointCloud& cloud, const OutlierFilter& filter, const FitOptions& options,
+FitBeginning find_beginning(const PointCloud& cloud, double spacing, const FitOptions& options, LoopStart loop,
                             const Progress& progress) {
   if (options.initial) {
     Mesh mesh = *options.initial;
@@ -57,9 +52,9 @@ FitBeginning find_beginning(const PointCloud& cloud, const OutlierFilter& filter
   first.genus = options.genus;
   first.bridge = options.bridge;
   first.creases = options.creases == FitCreases::Auto ? CreaseSearch::Auto : CreaseSearch::None;
-  if (options.scheme.kind == SchemeKind::Loop && dense && vertices <= kMostMoved) {
+  if (options.scheme.kind == SchemeKind::Loop && loop == LoopStart::Moved && dense && vertices <= kMostMoved) {
     first.vertices = vertices;
-    return {moved_mesh(cloud, filter, options, first, progress), true};
+    return {moved_mesh(cloud, spacing, options, first, progress), true};
   }
   return {first_mesh(cloud, first, progress).mesh, false};
 }

@@ -1,7 +1,6 @@
 /// \file The control mesh that a fit starts from.
 #pragma once
 #include "batten/fit/fit_surface.h"
-#include "batten/fit/outliers.h"
 
 namespace batten {
 
@@ -11,9 +10,15 @@ struct FitBeginning {
   bool settled = false;  ///< its surface is near the points: what is lost by a round is not given up for it
 };
 
-/// The given mesh, a sphere, a mesh over the points, or for Loop one that moves have made of a finer one
-/// (fit/loop_moves.h). cloud: with normals; filter: of the same points. Throws what first_mesh() throws.
-FitBeginning find_beginning(const PointCloud& cloud, const OutlierFilter& filter, const FitOptions& options,
+/// What a Loop mesh over the points is made of.
+enum class LoopStart {
+  Moved,  ///< a finer mesh, by moves (fit/loop_moves.h), where there are enough points
+  Plain   ///< the first mesh as it is
+};
+
+/// The given mesh, a sphere, or a mesh over the points. cloud: with normals, without outliers; spacing: of the points.
+/// Throws what first_mesh() throws.
+FitBeginning find_beginning(const PointCloud& cloud, double spacing, const FitOptions& options, LoopStart loop,
                             const Progress& progress);
 
 }  // namespace batten

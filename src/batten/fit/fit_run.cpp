@@ -44,12 +44,13 @@ FitRun::FitRun(SurfaceFitter& fitter, const FitOptions& options, FitReport& repo
       report_(report),
       filter_(filter),
       watch_(options.watch),
-      outliers_(filter.lonely()),
+      far_(filter.lonely()),
+      outliers_(far_),
       schedule_(measured(), filter.spacing() / report.diameter, fitter.distances().size(), settled),
       allowed_(options.initial && fitter.unsound_faces() > 0 ? std::numeric_limits<Index>::max() : 0),
       passed_(allowed_),
       settled_(settled) {
-  set_weights(0.0);
+  judge();
   if (settled) note_passed();
 }
 
@@ -141,6 +142,7 @@ void FitRun::go_rounds(Soundness asked, const Progress& progress) {
   for (int round = 0; round < options_.rounds; ++round) {
     report_progress(progress, static_cast<double>(round) / options_.rounds);
     go_round(asked);
+    if (asked == Soundness::Unfolded) judge();
     const FitErrors errors = measured();
     schedule_.note(errors);
     note_passed();
@@ -156,17 +158,32 @@ void FitRun::go_rounds(Soundness asked, const Progress& progress) {
   }
 }
 
-/// Judges anew which points are outliers; true where that changes.
+/// Judges anew which points are far outliers, where none are lonely; true where that changes.
 bool FitRun::leave_out_far() {
+  if (filter_.has_lonely()) return false;
   Buffer<std::uint8_t> flags = filter_.lonely();
   filter_.add_far(fitter_.distances(), flags);
-  if (judged_ == kJudgements || flags == outliers_) return false;
+  if (judged_ == kJudgements || flags == far_) return false;
   ++judged_;
-  outliers_ = std::move(flags);
-  set_weights(0.0);
+  far_ = std::move(flags);
+  judge();
   passed_.clear();
   schedule_.note_restart(measured());
   return true;
+}
+
+/// Weighs each point by how surely it belongs to the surface as it is.
+void FitRun::judge() {
+  constexpr double kBelongs = 0.5;
+  const Points& points = fitter_.cloud().points;
+  Points offsets(points.rows(), 3);
+  for (Eigen::Index i = 0; i < offsets.rows(); ++i)
+    offsets.row(i) = points.row(i) - fitter_.attached()[static_cast<std::size_t>(i)].point.transpose();
+  if (filter_.has_lonely()) far_ = filter_.lonely_and_far(fitter_.distances());
+  belonging_ = filter_.belonging_to(far_, offsets);
+  for (std::size_t i = 0; i < outliers_.size(); ++i)
+    outliers_[i] = belonging_[static_cast<Eigen::Index>(i)] < kBelongs ? 1 : 0;
+  set_weights(0.0);
 }
 
 /// Points count the more the farther away they are; of all rounds the surface with the least maximum is kept whose RMS
@@ -197,7 +214,7 @@ void FitRun::lower_worst(const Progress& progress) {
   settle();
 }
 
-/// Outliers count nothing, others by a power of their distance; half of it is what they counted before.
+/// Points count as surely as they belong, and by a power of their distance; half of it is what they counted before.
 void FitRun::set_weights(double power) {
   constexpr double kMost = 100.0;
   const double rms = measured().rms * report_.diameter;
@@ -205,7 +222,7 @@ void FitRun::set_weights(double power) {
   for (Eigen::Index i = 0; i < weights.size(); ++i) {
     const double share = rms > 0.0 ? fitter_.distances()[i] / rms : 1.0;
     const double wanted = power > 0.0 ? std::min(kMost, 0.5 + 0.5 * std::pow(share, power)) : 1.0;
-    weights[i] = outliers_[static_cast<std::size_t>(i)] != 0 ? 0.0 : power > 0.0 ? 0.5 * (weights[i] + wanted) : wanted;
+    weights[i] = power > 0.0 ? 0.5 * (weights[i] + belonging_[i] * wanted) : belonging_[i] * wanted;
   }
   fitter_.set_weights(std::move(weights));
 }

@@ -75,6 +75,7 @@ class FitRun {
   void finish_level(bool last, const Progress& progress);
   void go_rounds(Soundness asked, const Progress& progress);
   bool leave_out_far();
+  void judge();
   void lower_worst(const Progress& progress);
   void set_weights(double power);
   void go_round(Soundness asked);
@@ -84,7 +85,9 @@ class FitRun {
   FitReport& report_;
   const OutlierFilter& filter_;
   FrameWatcher watch_;
-  Buffer<std::uint8_t> outliers_;
+  Buffer<std::uint8_t> far_;       ///< one flag a point, of outliers that are sure
+  Scalars belonging_;              ///< of each point to the surface
+  Buffer<std::uint8_t> outliers_;  ///< one flag a point, of those that rather do not belong
   FitSchedule schedule_;
   /// So many unsound faces are as good as none: any number where a mesh that was given has some, since the shape it
   /// follows may pass through itself too.

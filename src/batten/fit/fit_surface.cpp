@@ -40,14 +40,14 @@ void require_options(const PointCloud& cloud, const FitOptions& options) {
                 "a fit needs four points or more; there are " + std::to_string(cloud.points.rows()));
 }
 
-/// The points that the rounds work with, with normals: in the order of their coordinates, so that the order in which
-/// they are given changes no bit, and one at each place.
+/// The points that the rounds work with: in the order of their coordinates, so that the order in which they are given
+/// changes no bit, and one at each place.
 struct WorkingCloud {
-  Buffer<Index> rows;  ///< in the whole cloud
+  Buffer<Index> places;  ///< of each point of the whole cloud, here; -1 for those that are left out
   PointCloud cloud;
 };
 
-WorkingCloud working_cloud(const PointCloud& cloud, const FitOptions& options, const Progress& progress) {
+WorkingCloud working_cloud(const PointCloud& cloud, const FitOptions& options) {
   // Moves of a Loop mesh ask for all that is known of thin parts.
   const Index least = options.scheme.kind == SchemeKind::Loop ? 20000 : 10000;
   constexpr Index kOfVertex = 12;
@@ -57,14 +57,15 @@ WorkingCloud working_cloud(const PointCloud& cloud, const FitOptions& options, c
   const Buffer<Index> thin = thinned_rows(cloud.points, most);
   WorkingCloud working;
   const Points normals = cloud.normals.rows() > 0 ? Points(cloud.normals(thin, Eigen::all)) : Points(0, 3);
+  working.places.assign(static_cast<std::size_t>(cloud.points.rows()), -1);
+  Buffer<Index> rows;
   for (const Index place : sorted_rows(cloud.points(thin, Eigen::all), normals)) {
     const Index row = thin[place];
-    if (working.rows.empty() || cloud.points.row(row) != cloud.points.row(working.rows.back()))
-      working.rows.push_back(row);
+    if (rows.empty() || cloud.points.row(row) != cloud.points.row(rows.back())) rows.push_back(row);
+    working.places[row] = static_cast<Index>(rows.size()) - 1;
   }
-  working.cloud.points = cloud.points(working.rows, Eigen::all);
-  working.cloud.normals = cloud.normals.rows() > 0 ? Points(cloud.normals(working.rows, Eigen::all))
-                                                   : estimate_normals(working.cloud.points, {}, progress);
+  working.cloud.points = cloud.points(rows, Eigen::all);
+  if (cloud.normals.rows() > 0) working.cloud.normals = cloud.normals(rows, Eigen::all);
   return working;
 }
 
@@ -79,25 +80,25 @@ FitResult fit_surface(const PointCloud& cloud, const FitOptions& options, const 
   if (!(report.diameter > 0.0) || !std::isfinite(report.diameter))
     throw Error(ErrorCode::BadArgument,
                 "squares of distances between the points are too large or too small for doubles; scale the points");
-  const WorkingCloud working = working_cloud(cloud, options, progress_within(progress, 0.0, 0.05));
+  const WorkingCloud working = working_cloud(cloud, options);
   const PointCloud& known = working.cloud;
-  const OutlierFilter filter(known.points, progress_within(progress, 0.05, 0.07));
-  FitAttempt made = make_fit(known, options, filter, report.diameter, progress_within(progress, 0.07, 1.0));
+  const OutlierFilter filter(known.points, progress_within(progress, 0.0, 0.02));
+  FitAttempt made = make_fit(known, options, filter, report.diameter, progress_within(progress, 0.02, 1.0));
   SurfaceFitter& fitter = made.fitter;
   const Buffer<std::uint8_t>& left_out = made.outliers;
   report = std::move(made.report);
   Scalars distances(cloud.points.rows());
   Buffer<std::uint8_t> outliers(static_cast<std::size_t>(cloud.points.rows()));
   report.spacing = filter.spacing();
-  if (known.points.rows() == cloud.points.rows()) {
-    for (std::size_t i = 0; i < left_out.size(); ++i) {
-      distances[working.rows[i]] = fitter.distances()[static_cast<Eigen::Index>(i)];
-      outliers[working.rows[i]] = left_out[i];
-    }
-  } else {
+  if (std::count(working.places.begin(), working.places.end(), -1) > 0) {
     distances = measure_to_surface(fitter, cloud.points);
     report.spacing = sampled_spacing(cloud.points, filter.spacing());
     outliers = filter.far_of(cloud.points, distances, fitter.distances(), report.spacing);
+  }
+  for (std::size_t row = 0; row < working.places.size(); ++row) {
+    if (working.places[row] < 0) continue;
+    distances[static_cast<Eigen::Index>(row)] = fitter.distances()[working.places[row]];
+    outliers[row] = left_out[working.places[row]];
   }
   report.to_surface = summarize_followed(distances, outliers, report.outliers);
   report.to_points = measure_to_points(fitter);

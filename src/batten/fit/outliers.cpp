@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "batten/fit/belonging.h"
 #include "batten/fit/cloud_samples.h"
 #include "batten/fit/orientation.h"
 #include "batten/fit/thin_cloud.h"
@@ -131,6 +132,16 @@ void OutlierFilter::find_lonely(const Points& points) {
   }
 }
 
+bool OutlierFilter::has_lonely() const { return std::count(lonely_.begin(), lonely_.end(), std::uint8_t{1}) > 0; }
+
+Buffer<std::uint8_t> OutlierFilter::lonely_and_far(const Scalars& distances) const {
+  Buffer<std::uint8_t> flags = lonely_;
+  for (std::size_t i = 0; i < flags.size(); ++i) {
+    if (!(distances[static_cast<Eigen::Index>(i)] > kFarInSpacings * spacing_)) flags[i] = 0;
+  }
+  return flags;
+}
+
 void OutlierFilter::add_far(const Scalars& distances, Buffer<std::uint8_t>& flags) const {
   parallel_for(static_cast<std::ptrdiff_t>(lonely_.size()), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     std::vector<double> around;
@@ -144,6 +155,10 @@ void OutlierFilter::add_far(const Scalars& distances, Buffer<std::uint8_t>& flag
       if (around.empty() || distances[i] > kFar * quantile(around, 0.5)) flags[i] = 1;
     }
   });
+}
+
+Scalars OutlierFilter::belonging_to(const Buffer<std::uint8_t>& far, const Points& offsets) const {
+  return belonging({tree_.points(), neighbours_, far, spacing_}, offsets);
 }
 
 Buffer<std::uint8_t> OutlierFilter::far_of(const Points& all, const Scalars& distances, const Scalars& own,

@@ -32,9 +32,17 @@ class OutlierFilter {
   /// gone: three rounds.
   const Buffer<std::uint8_t>& lonely() const { return lonely_; }
 
+  /// Any of them.
+  bool has_lonely() const;
+  /// The lonely ones that are more than one and a half spacings from a surface.
+  Buffer<std::uint8_t> lonely_and_far(const Scalars& distances) const;
+
   /// Adds those whose distance from a surface is eight times the median of their neighbours', and above one and a half
   /// spacings: a part of the shape that the surface has not reached is far as a whole. Lonely neighbours do not count.
   void add_far(const Scalars& distances, Buffer<std::uint8_t>& flags) const;
+
+  /// belonging() of these points, N, of which `far` are outliers for sure. offsets: N-by-3, from a surface.
+  Scalars belonging_to(const Buffer<std::uint8_t>& far, const Points& offsets) const;
 
   /// The same for all points of a cloud from which this filter's points were thinned, by the neighbours that they have
   /// among those: flags points more than one and a half `spacing` (of all) away whose nearest point here is lonely, or
