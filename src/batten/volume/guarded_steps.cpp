@@ -1,9 +1,12 @@
 #include "batten/volume/guarded_steps.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
+#include "batten/fit/point_tree.h"
 #include "batten/mesh/self_intersections.h"
+#include "batten/mesh/vertex_fans.h"
 #include "batten/volume/segment_measures.h"
 
 namespace batten {
@@ -16,6 +19,27 @@ std::int64_t meetings_of(const SurfaceFitter& fitter) {
   const Mesh control = frame_mesh({fitter.topology(), fitter.scheme(), fitter.control()});
   const Mesh fine = surface_of_faces(fitter.topology(), fitter.scheme(), control, kSearchedFaces);
   return find_self_intersections(Topology(fine), fine.points).count;
+}
+
+/// Marks the control points whose faces lie at triangles of the fine surface that meet, and returns how many pairs do.
+std::int64_t mark_meetings(const SurfaceFitter& fitter, Buffer<std::uint8_t>& marks) {
+  constexpr Index kListed = 1000;
+  const Mesh control = frame_mesh({fitter.topology(), fitter.scheme(), fitter.control()});
+  const Mesh fine = surface_of_faces(fitter.topology(), fitter.scheme(), control, kMeasuredFaces);
+  const Topology topology(fine);
+  const SelfIntersections found = find_self_intersections(topology, fine.points, {}, kListed);
+  // The fine mesh begins with the control points' own places on the surface.
+  const PointTree places(Points(fine.points.topRows(fitter.topology().vertex_count())));
+  for (const std::array<Index, 2>& pair : found.faces) {
+    for (const Index face : pair) {
+      std::array<Index, 4> near{};
+      std::array<double, 4> squares{};
+      const Index corner = topology.origin(topology.face_begin(face));
+      places.nearest(fine.points.row(corner), 4, near.data(), squares.data());
+      for (const Index vertex : near) marks[vertex] = 1;
+    }
+  }
+  return found.count;
 }
 
 }  // namespace
@@ -55,6 +79,31 @@ bool GuardedSteps::take(FitStep step, int halvings) {
   fitter_.attach();
   ++(sound ? taken_ : cut_);
   return sound;
+}
+
+void GuardedSteps::mend() {
+  constexpr int kRounds = 20;
+  constexpr double kShare = 0.5;
+  const Topology& topology = fitter_.topology();
+  Values control = fitter_.control();
+  for (int round = 0; round < kRounds; ++round) {
+    Buffer<std::uint8_t> marks(static_cast<std::size_t>(topology.vertex_count()), 0);
+    if (mark_meetings(fitter_, marks) == 0) break;
+    const Values before = control;
+    for (Index vertex = 0; vertex < topology.vertex_count(); ++vertex) {
+      if (marks[vertex] == 0) continue;
+      Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+      int count = 0;
+      for_each_spoke(topology, vertex, [&](Index, Index neighbour) {
+        sum += before.row(neighbour);
+        ++count;
+      });
+      if (count > 0) control.row(vertex) += kShare * (sum / count - before.row(vertex));
+    }
+    fitter_.move_to(control);
+  }
+  meetings_ = meetings_of(fitter_);
+  fitter_.attach();
 }
 
 Points moved_inside(const VolumeGrid& grid, const Points& points) {

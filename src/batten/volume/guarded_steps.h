@@ -21,6 +21,10 @@ class GuardedSteps {
   /// False where the step was taken back.
   bool take(FitStep step, int halvings = 0);
 
+  /// Looks at the finer surface that is measured in the end. Where that meets itself, between two places that steps
+  /// look at, control points move towards the mean of their neighbours until it does not.
+  void mend();
+
   int taken() const { return taken_; }
   int cut() const { return cut_; }
 

@@ -123,7 +123,7 @@ class ImageRounds {
   }
 
   const SurfaceFitter& fitter() const { return fitter_; }
-  const GuardedSteps& steps() const { return steps_; }
+  GuardedSteps& steps() { return steps_; }
 
  private:
   static constexpr Index kMargin = 24;
@@ -209,6 +209,7 @@ Segmentation segment_image(const Segmentation& start, const Volume& image, const
     rounds.take(early);
   }
   if (modelled) rounds.fit_model(progress_within(progress, 0.5, 1.0));
+  rounds.steps().mend();
   Segmentation result = start;
   result.rounds = rounds.steps().taken();
   result.cut_steps = rounds.steps().cut();
