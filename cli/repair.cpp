@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "batten/error.h"
 #include "batten/io/io.h"
 #include "batten/parallel/parallel.h"
 #include "cli/input_output.h"
