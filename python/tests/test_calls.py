@@ -37,6 +37,7 @@ def test_progress_rises_to_one_and_may_stop_the_call() -> None:
 def test_control_c_stops_a_call() -> None:
     mesh = grid(250, 250)
     sent: list[float] = []
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell may have told the process to ignore it
 
     def interrupt() -> None:
         time.sleep(0.3)

@@ -87,15 +87,15 @@ struct ElasticSurface::Parts {
   mutable std::once_flag damping_made;
   mutable Matrix damping;  ///< with a ratio made when it is asked for
   Matrix stiffness;
-  std::optional<PlaceRows> first_step;  ///< S, where the base is a first refinement
-  Points linear_force;                  ///< K R under Linear, or empty
-  TurningFaces turning;                 ///< under Rotating
+  std::unique_ptr<PlaceRows> first_step;  ///< S, where the base is a first refinement
+  Points linear_force;                    ///< K R under Linear, or empty
+  TurningFaces turning;                   ///< under Rotating
 
   Parts(const SurfacePatches& patches_in, ConstValuesRef rest_in, ElasticOptions options_in, const Progress& progress)
       : patches(patches_in), options(std::move(options_in)), rest(checked(rest_in)) {
     const BoundingBox box = bounding_box(rest);
     diagonal = (box.high - box.low).stableNorm();
-    if (patches.has_first_step()) first_step = first_step_rows(patches);
+    if (patches.has_first_step()) first_step = std::make_unique<PlaceRows>(first_step_rows(patches));
     make_mass(progress_within(progress, 0.0, 0.3));
     release_freed_memory();
     const Points base_rest = patches.base_values(rest);

@@ -84,14 +84,15 @@ SliceInterval::SliceInterval(const std::vector<FilledSlice>& slices, std::ptrdif
   else
     height_ = below_ != nullptr ? below_->level - further_down_->level : further_up_->level - above_->level;
   static const std::vector<SliceRegion> none;
-  for (const Bridge& bridge :
-       bridges_between(below_ != nullptr ? below_->regions : none, above_ != nullptr ? above_->regions : none)) {
+  const std::vector<SliceRegion>& regions_below = below_ != nullptr ? below_->regions : none;
+  const std::vector<SliceRegion>& regions_above = above_ != nullptr ? above_->regions : none;
+  for (const Bridge& bridge : bridges_between(regions_below, regions_above)) {
     if (!bridge.below.empty() && !bridge.above.empty())
       bridges_.push_back(bridge);
     else if (bridge.above.empty())
-      caps_below_.push_back(cap_of(below_->regions[bridge.below.front()], further_down_));
+      caps_below_.push_back(cap_of(regions_below[bridge.below.front()], further_down_));
     else
-      caps_above_.push_back(cap_of(above_->regions[bridge.above.front()], further_up_));
+      caps_above_.push_back(cap_of(regions_above[bridge.above.front()], further_up_));
   }
 }
 
