@@ -24,8 +24,8 @@ const Words<Outcome> kOutcomes{{"reached", Outcome::Reached},
                                {"least-squares", Outcome::LeastSquares},
                                {"not-reached", Outcome::NotReached}};
 const Words<ShapeEnergyKind> kShapeEnergies{{"stretch", ShapeEnergyKind::Stretch},
-                                       {"bending", ShapeEnergyKind::Bending},
-                                       {"variation", ShapeEnergyKind::Variation}};
+                                            {"bending", ShapeEnergyKind::Bending},
+                                            {"variation", ShapeEnergyKind::Variation}};
 
 InterpolateOptions options_of(double tolerance, const std::string& method, const std::string& on_singular) {
   InterpolateOptions options;
