@@ -13,33 +13,40 @@ namespace batten {
 
 namespace {
 
-/// Pairs of triangles of the surface that meet.
-std::int64_t meetings_of(const SurfaceFitter& fitter) {
-  constexpr std::int64_t kSearchedFaces = 20000;
+/// Triangles of the surface that meet, of which `listed` pairs are named; the surface has so many faces.
+struct Meetings {
+  Mesh fine;
+  SelfIntersections found;
+};
+
+Meetings find_meetings(const SurfaceFitter& fitter, std::int64_t faces, Index listed) {
   const Mesh control = frame_mesh({fitter.topology(), fitter.scheme(), fitter.control()});
-  const Mesh fine = surface_of_faces(fitter.topology(), fitter.scheme(), control, kSearchedFaces);
-  return find_self_intersections(Topology(fine), fine.points).count;
+  Mesh fine = surface_of_faces(fitter.topology(), fitter.scheme(), control, faces);
+  SelfIntersections found = find_self_intersections(Topology(fine), fine.points, {}, listed);
+  return {std::move(fine), std::move(found)};
 }
 
-/// Marks the control points whose faces lie at triangles of the fine surface that meet, and returns how many pairs do.
-std::int64_t mark_meetings(const SurfaceFitter& fitter, Buffer<std::uint8_t>& marks) {
-  constexpr Index kListed = 1000;
-  const Mesh control = frame_mesh({fitter.topology(), fitter.scheme(), fitter.control()});
-  const Mesh fine = surface_of_faces(fitter.topology(), fitter.scheme(), control, kMeasuredFaces);
-  const Topology topology(fine);
-  const SelfIntersections found = find_self_intersections(topology, fine.points, {}, kListed);
+/// Pairs of triangles that meet where each step looks.
+std::int64_t meetings_of(const SurfaceFitter& fitter) {
+  constexpr std::int64_t kSearchedFaces = 20000;
+  return find_meetings(fitter, kSearchedFaces, 0).found.count;
+}
+
+/// The control points beside triangles that meet, one flag each.
+Buffer<std::uint8_t> beside_meetings(const Meetings& meetings, Index count) {
+  Buffer<std::uint8_t> marks(static_cast<std::size_t>(count), 0);
   // The fine mesh begins with the control points' own places on the surface.
-  const PointTree places(Points(fine.points.topRows(fitter.topology().vertex_count())));
-  for (const std::array<Index, 2>& pair : found.faces) {
+  const PointTree places(Points(meetings.fine.points.topRows(count)));
+  for (const std::array<Index, 2>& pair : meetings.found.faces) {
     for (const Index face : pair) {
       std::array<Index, 4> near{};
       std::array<double, 4> squares{};
-      const Index corner = topology.origin(topology.face_begin(face));
-      places.nearest(fine.points.row(corner), 4, near.data(), squares.data());
-      for (const Index vertex : near) marks[vertex] = 1;
+      const Index corner = meetings.fine.face_vertices[meetings.fine.face_offsets[face]];
+      const Index found = places.nearest(meetings.fine.points.row(corner), 4, near.data(), squares.data());
+      for (Index k = 0; k < found; ++k) marks[near[k]] = 1;
     }
   }
-  return found.count;
+  return marks;
 }
 
 }  // namespace
@@ -83,13 +90,16 @@ bool GuardedSteps::take(FitStep step, int halvings) {
 
 void GuardedSteps::mend() {
   constexpr int kRounds = 20;
+  constexpr Index kListed = 1000;
   constexpr double kShare = 0.5;
   const Topology& topology = fitter_.topology();
-  Values control = fitter_.control();
+  bool mended = false;
   for (int round = 0; round < kRounds; ++round) {
-    Buffer<std::uint8_t> marks(static_cast<std::size_t>(topology.vertex_count()), 0);
-    if (mark_meetings(fitter_, marks) == 0) break;
-    const Values before = control;
+    const Meetings meetings = find_meetings(fitter_, kMeasuredFaces, kListed);
+    if (meetings.found.count == 0) break;
+    const Buffer<std::uint8_t> marks = beside_meetings(meetings, topology.vertex_count());
+    const Values before = fitter_.control();
+    Values control = before;
     for (Index vertex = 0; vertex < topology.vertex_count(); ++vertex) {
       if (marks[vertex] == 0) continue;
       Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
@@ -101,9 +111,12 @@ void GuardedSteps::mend() {
       if (count > 0) control.row(vertex) += kShare * (sum / count - before.row(vertex));
     }
     fitter_.move_to(control);
+    mended = true;
   }
+  if (!mended) return;
   meetings_ = meetings_of(fitter_);
   fitter_.attach();
+  show();
 }
 
 Points moved_inside(const VolumeGrid& grid, const Points& points) {
