@@ -63,7 +63,7 @@ Contact::Contact(const ElasticSurface& body, SignedDistance obstacle, const Cont
       options_(options),
       samples_(std::make_shared<const SurfaceSamples>(body.patches(), GridSamples{options.intervals})),
       face_areas_(element_areas(body.patches(), body.rest())) {
-  release_freed_memory();
+  release_freed_memory(sizeof(double) * static_cast<std::size_t>(body.mass().nonZeros()));
   if (!obstacle_) throw Error(ErrorCode::BadArgument, "a contact needs an obstacle");
   require_not_negative(options_.stiffness, "the stiffness of a contact");
   require_not_negative(options_.friction, "the friction of a contact");

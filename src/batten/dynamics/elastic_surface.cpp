@@ -97,14 +97,14 @@ struct ElasticSurface::Parts {
     diagonal = (box.high - box.low).stableNorm();
     if (patches.has_first_step()) first_step = std::make_unique<PlaceRows>(first_step_rows(patches));
     make_mass(progress_within(progress, 0.0, 0.3));
-    release_freed_memory();
+    release_freed_memory(matrix_bytes());
     const Points base_rest = patches.base_values(rest);
     if (options.measure == ElasticMeasure::Lengths) {
       measure_lengths(base_rest, progress_within(progress, 0.3, 1.0));
     } else {
       measure_parameters(base_rest, progress_within(progress, 0.3, 1.0));
     }
-    release_freed_memory();
+    release_freed_memory(matrix_bytes());
     turning.finish(patches.base().vertex_count());
     if (options.rest == RestModel::Linear) {
       Values product;
@@ -132,6 +132,8 @@ struct ElasticSurface::Parts {
     return rest_in;
   }
 
+  /// Of the entries of one matrix.
+  std::size_t matrix_bytes() const { return sizeof(double) * static_cast<std::size_t>(mass.nonZeros()); }
   void make_mass(const Progress& progress);
   void measure_lengths(const Points& base_rest, const Progress& progress);
   void measure_parameters(const Points& base_rest, const Progress& progress);
@@ -166,7 +168,7 @@ void ElasticSurface::Parts::measure_lengths(const Points& base_rest, const Progr
     if (options.rest == RestModel::Rotating) {  // before the matrix, which takes more memory
       turning.add(energy.elements(), energy.element_gradients(base_rest, coefficients), base_rest);
     }
-    release_freed_memory();
+    release_freed_memory(matrix_bytes());
     return energy.matrix(base_rest, coefficients, progress_within(part, 0.3, 1.0));
   };
   Matrix stretch = add(ShapeEnergyKind::Stretch, material().tension, progress_within(progress, 0.0, 0.4));

@@ -91,7 +91,7 @@ StepSystem::StepSystem(const ElasticSurface& surface, const StepWeights& weights
                        const std::vector<PlaceSprings>& lasting, const HeldPoints& held, MotionSolver solver,
                        double tolerance)
     : surface_(surface), held_(held), diagonal_(surface.diagonal()), tolerance_(tolerance) {
-  release_freed_memory();
+  release_freed_memory(sizeof(double) * static_cast<std::size_t>(surface.mass().nonZeros()));
   find_matrix(weights, lasting);
   const double inertia =
       (weights.mass + weights.damping * surface.damping_ratio().value_or(0.0)) * mean_diagonal(surface.mass()) +

@@ -142,9 +142,6 @@ void solve_rows(const Number* entries, int size, int j, Row* local) {
   }
 }
 
-/// Entries of a factor beside which the milliseconds of giving memory back do not count.
-constexpr std::size_t kLarge = 4'000'000;
-
 /// Calls work(std::integral_constant<int, count>, j) for groups of columns of begin to end, ascending.
 template <typename Work>
 void for_column_groups(int begin, int end, const Work& work) {
@@ -174,13 +171,13 @@ CholeskyFactor::CholeskyFactor(const Matrix& pattern, FactorPrecision precision,
   }
   split_tree();
   list_places();
-  if (starts_.back() > kLarge) release_freed_memory();  // of finding the order
+  release_freed_memory(sizeof(double) * starts_.back());  // of finding the order
   if (precision == FactorPrecision::Double) {
-    entries_.resize(starts_.back());
+    std::get<Buffer<double>>(entries_).resize(starts_.back());
     factor<double>(pattern, value);
   } else {
     find_scale(pattern, value);
-    single_entries_.resize(starts_.back());
+    std::get<Buffer<float>>(entries_).resize(starts_.back());
     factor<float>(pattern, value);
   }
 }
@@ -288,7 +285,8 @@ void CholeskyFactor::factor(const Matrix& pattern, const EntryValue& value) {
     const double pivot = factor_front(front, width, diagonal.data());
     if (pivot < 0.0) return;
     least_pivot_ = std::min(least_pivot_, pivot);
-    std::copy_n(front.entries.begin(), starts_[s + 1] - starts_[s], const_cast<Number*>(node_entries<Number>(s)));
+    std::copy_n(front.entries.begin(), starts_[s + 1] - starts_[s],
+                std::get<Buffer<Number>>(entries_).begin() + static_cast<std::ptrdiff_t>(starts_[s]));
     if (front.size > width) stack.push_back({s, rest_of(front, width)});
   }
   positive_ = true;

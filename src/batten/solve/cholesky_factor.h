@@ -3,6 +3,7 @@
 #include <Eigen/SparseCore>
 #include <cstddef>
 #include <functional>
+#include <tuple>
 #include <type_traits>
 #include <vector>
 
@@ -76,10 +77,7 @@ class CholeskyFactor {
   void substitute(int node, Buffer<Row<Number>>& x, Buffer<Row<Number>>& local) const;
   template <typename Number>
   const Number* node_entries(int node) const {
-    if constexpr (std::is_same_v<Number, double>)
-      return entries_.data() + starts_[node];
-    else
-      return single_entries_.data() + starts_[node];
+    return std::get<Buffer<Number>>(entries_).data() + starts_[node];
   }
 
   Elimination elimination_;
@@ -90,9 +88,8 @@ class CholeskyFactor {
   Buffer<std::size_t> place_starts_;
   Buffer<int> places_;          ///< of the other rows among those below the subtree's root
   Buffer<std::size_t> starts_;  ///< of each supernode's columns of L, each from its diagonal down
-  Buffer<double> entries_;
-  Buffer<float> single_entries_;  ///< instead, of Single
-  Buffer<double> scale_;          ///< of Single: L L^T = P D A D P^T with these on D's diagonal
+  std::tuple<Buffer<double>, Buffer<float>> entries_;  ///< one of them, by precision
+  Buffer<double> scale_;                               ///< of Single: L L^T = P D A D P^T with these on D's diagonal
   bool positive_ = false;
   double least_pivot_ = 0.0;
 };
