@@ -109,18 +109,20 @@ TEST(CholeskyFactor, SeesWhatIsNotPositiveDefinite) {
 }
 
 /// Large enough that subtrees are taken by several threads.
+Values solution_on(int threads, const Matrix& matrix, const Values& b,
+                   FactorPrecision precision = FactorPrecision::Double) {
+  const ThreadLimit limit(threads);
+  Values x;
+  CholeskyFactor(matrix, precision).solve(b, x);
+  return x;
+}
+
 TEST(CholeskyFactor, HasTheSameBitsOnAnyNumberOfThreads) {
   const Matrix matrix = grid_matrix(90);
   ASSERT_GT(CholeskyFactor(matrix).entry_count(), 500'000U);
   const Values b = test::random_values(static_cast<Index>(matrix.rows()), 3);
-  const auto solution = [&](int threads) {
-    const ThreadLimit limit(threads);
-    Values x;
-    CholeskyFactor(matrix).solve(b, x);
-    return x;
-  };
-  const Values alone = solution(1);
-  EXPECT_EQ(alone, solution(4));
+  const Values alone = solution_on(1, matrix, b);
+  EXPECT_EQ(alone, solution_on(4, matrix, b));
   EXPECT_LE((matrix * alone - b).norm(), 1e-12 * b.norm());
 }
 
@@ -156,13 +158,7 @@ TEST(CholeskyFactor, SinglePrecisionIsAPreconditioner) {
 TEST(CholeskyFactor, SinglePrecisionHasTheSameBitsOnAnyNumberOfThreads) {
   const Matrix matrix = grid_matrix(90);
   const Values b = test::random_values(static_cast<Index>(matrix.rows()), 3);
-  const auto solution = [&](int threads) {
-    const ThreadLimit limit(threads);
-    Values x;
-    CholeskyFactor(matrix, FactorPrecision::Single).solve(b, x);
-    return x;
-  };
-  EXPECT_EQ(solution(1), solution(4));
+  EXPECT_EQ(solution_on(1, matrix, b, FactorPrecision::Single), solution_on(4, matrix, b, FactorPrecision::Single));
 }
 
 /// Blocks so large that threads share one: a full matrix.
@@ -173,14 +169,8 @@ TEST(CholeskyFactor, SharesRowsOfLargeBlocks) {
   }
   const Matrix matrix = symmetric(900, full);
   const Values b = test::random_values(900, 3);
-  const auto solution = [&](int threads) {
-    const ThreadLimit limit(threads);
-    Values x;
-    CholeskyFactor(matrix).solve(b, x);
-    return x;
-  };
-  const Values alone = solution(1);
-  EXPECT_EQ(alone, solution(4));
+  const Values alone = solution_on(1, matrix, b);
+  EXPECT_EQ(alone, solution_on(4, matrix, b));
   EXPECT_LE((matrix * alone - b).norm(), 1e-12 * b.norm());
 }
 
