@@ -16,7 +16,7 @@ struct SelfIntersections {
 /// The pairs of triangles that pass through each other: an edge of one passes through the interior of the other. Faces
 /// are split as triangulate_face does. Triangles of the same face, and triangles that share an edge, are not compared
 /// (see count_turned_faces), and triangles in a common plane do not count.
-/// points: V-by-3, finite. O(n log n) by a tree of boxes for meshes with few intersections; 100 bytes for each
+/// points: V-by-3, finite. O(n log n) by a tree of boxes for meshes with few intersections; 130 bytes for each
 /// triangle. `most_listed` pairs are named. Throws Error(BadShape, NotFinite, Cancelled).
 SelfIntersections find_self_intersections(const Topology& topology, ConstValuesRef points,
                                           const Progress& progress = {}, Index most_listed = 10);
