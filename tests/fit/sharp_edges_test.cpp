@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "batten/fit/crease_counts.h"
+#include "batten/fit/first_mesh.h"
 #include "batten/fit/fit_surface.h"
 #include "batten/fit/outliers.h"
 #include "batten/fit/paired_quads.h"
@@ -21,8 +22,8 @@ namespace {
 
 using test::CloudMaker;
 
-Points box_points(Index count) {
-  CloudMaker maker(3);
+Points box_points(Index count, unsigned seed = 3) {
+  CloudMaker maker(seed);
   Points points(count, 3);
   for (Index i = 0; i < count; ++i) {
     for (Index c = 0; c < 3; ++c) points(i, c) = maker.uniform(-1.0, 1.0);
@@ -62,7 +63,39 @@ TEST(SharpNormals, DoNotMixTheSidesOfABox) {
     return (normals.cwiseAbs().rowwise().maxCoeff().array() < 0.99).count();
   };
   EXPECT_GT(wrong(mixed), 300);
-  EXPECT_LT(wrong(sharp), wrong(mixed) / 5);
+  EXPECT_LT(wrong(sharp), wrong(mixed) / 6);
+  const auto of_another_side = [&](const Points& normals) {
+    Index count = 0;
+    for (Index i = 0; i < points.rows(); ++i) count += std::abs(normals(i, i % 3)) < 0.5 ? 1 : 0;
+    return count;
+  };
+  EXPECT_LT(of_another_side(sharp), of_another_side(mixed)) << "points whose plane is that of the next side";
+}
+
+/// Each corner of the box is one of the mesh, where three sharp edges meet, and lines end nowhere else.
+TEST(FirstMesh, HasTheCornersAndEdgesOfBoxes) {
+  constexpr int kBoxes = 4;
+  int corners = 0;
+  int ends = 0;
+  for (unsigned seed = 1; seed <= kBoxes; ++seed) {
+    FirstMeshOptions options;
+    options.vertices = 100;
+    options.creases = CreaseSearch::Auto;
+    const Mesh mesh = first_mesh({box_points(3000, seed), Points(0, 3)}, options).mesh;
+    std::vector<int> creases(static_cast<std::size_t>(mesh.vertex_count()), 0);
+    for (const Crease& crease : mesh.creases) {
+      ++creases[static_cast<std::size_t>(crease.a)];
+      ++creases[static_cast<std::size_t>(crease.b)];
+    }
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+      const Eigen::RowVector3d off = mesh.points.row(v).cwiseAbs() - Eigen::RowVector3d::Ones();
+      corners += creases[static_cast<std::size_t>(v)] == 3 && off.norm() < 0.03 ? 1 : 0;
+      ends += creases[static_cast<std::size_t>(v)] == 1 ? 1 : 0;
+    }
+  }
+  // Points scatter: where none lies beside a corner it may be missed.
+  EXPECT_GE(corners, kBoxes * 8 - 2);
+  EXPECT_LE(ends, 2);
 }
 
 TEST(SharpNormals, StayOnASphere) {
@@ -94,10 +127,10 @@ TEST(FitCreases, MakeABoxFarMoreExact) {
     const FitResult sharp = fit_of(points, kind, FitCreases::Auto);
     const FitResult smooth = fit_of(points, kind, FitCreases::None);
     // Loop's moves crowd control points at edges that stay smooth.
-    const double share = kind == SchemeKind::Loop ? 0.7 : 0.25;
+    const double share = kind == SchemeKind::Loop ? 0.2 : 0.05;
     EXPECT_LT(sharp.report.to_surface.rms, share * smooth.report.to_surface.rms);
     EXPECT_EQ(sharp.report.unsound, 0);
-    EXPECT_GE(count_creases(sharp.topology).corners, 6);
+    EXPECT_GE(count_creases(sharp.topology).corners, 8);
     EXPECT_EQ(count_creases(smooth.topology).edges, 0);
   }
 }

@@ -166,8 +166,9 @@ void coarsen(Mesh& mesh, const CloudField& field, const FirstMeshOptions& option
   const CloudSamples& samples = field.samples;
   const NeighbourTable neighbours = find_neighbours(field.tree, kCloudNeighbours);
   const Points normals = sharp_normals(samples.points, samples.normals, neighbours);
-  Mesh sharp = simplified(triangulated(mesh), {samples.points, normals, samples.areas}, options.vertices,
-                          progress_within(progress, 0.0, 0.4));
+  constexpr double kReach = 2.5;  // of the spacing of samples: more than twelve vertices of a fine contour
+  const SamplePlanes planes{samples.points, normals, samples.areas, kReach * samples.typical};
+  Mesh sharp = simplified(triangulated(mesh), planes, options.vertices, progress_within(progress, 0.0, 0.4));
   turn_to_points(sharp, field.tree, normals);
   sharp.creases = find_sharp_edges(sharp, field.tree, normals, samples.typical);
   if (options.faces == FaceKind::Quads && !sharp.creases.empty()) {

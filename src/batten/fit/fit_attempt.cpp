@@ -102,6 +102,7 @@ void find_outliers(const FitTask& task, const FitOptions& smooth, FollowedCloud&
 
 /// Makes all rounds, with creases and without where those that are found are doubtful.
 FitAttempt best_attempt(const FitTask& task, const FollowedCloud& points, const Progress& progress) {
+  constexpr double kEarned = 1.1;  // creases that gain less are chance
   const FitOptions& options = task.options;
   const double spacing = task.filter.spacing();
   const FitBeginning start =
@@ -122,7 +123,7 @@ FitAttempt best_attempt(const FitTask& task, const FollowedCloud& points, const 
     Attempt smooth(other, points.all(), smooth_options, task.filter, task.diameter,
                    progress_within(progress, half + 0.05, half + 0.07));
     smooth.approach(hidden, progress_within(progress, half + 0.07, kApproached));
-    if (smooth.rms() < sharp.rms()) return smooth.finish(options.watch, rest);
+    if (smooth.rms() < kEarned * sharp.rms()) return smooth.finish(options.watch, rest);
     if (smooth.is_cancelled()) sharp.cancel();
   } catch (const Error& error) {
     if (error.code() != ErrorCode::Cancelled) throw;

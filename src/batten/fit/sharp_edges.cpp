@@ -142,6 +142,7 @@ class SharpEdgeFinder {
     constexpr double kReach = 4.0;
     constexpr double kBesideEnds = 0.6;
     constexpr double kLeastAlong = 1.5;
+    constexpr double kAcross = 0.5;  // beyond a corner the data turns to a third side, along the edge
     if (topology_.is_boundary_edge(e)) return {};
     const Index h = topology_.edge_half_edge(e);
     const Eigen::Vector3d one = face_normal(mesh_, topology_.face(h)).normalized();
@@ -158,7 +159,8 @@ class SharpEdgeFinder {
     const Index count = tree_.nearest(middle.transpose(), kNear, near.data(), squares.data());
     std::vector<BesidePoint> beside;
     for (Index k = 0; k < count; ++k) {
-      if (normals_.row(near[k]).dot(up) <= 0.0) continue;
+      const Eigen::RowVector3d normal = normals_.row(near[k]);
+      if (normal.dot(up) <= 0.0 || std::abs(normal.dot(along)) > kAcross) continue;
       const Eigen::Vector3d off = tree_.points().row(near[k]).transpose() - middle;
       const BesidePoint point{off.dot(along) / spacing_, off.dot(side) / spacing_, off.dot(up) / spacing_};
       if (std::abs(point.along) * spacing_ <= most_along && std::abs(point.across) <= kReach) beside.push_back(point);

@@ -1,6 +1,8 @@
 #include "batten/fit/sharp_normals.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "batten/parallel/parallel.h"
 
@@ -43,20 +45,57 @@ Index most_even(const Points& points, const Points& normals, const Scalars& unev
   return best;
 }
 
+/// The mean normal of those neighbours on one side in whose planes the point lies best, or the point's own.
+Eigen::RowVector3d best_side(const Points& points, const Points& normals, const NeighbourTable& neighbours,
+                             Index point) {
+  constexpr double kSameSide = 0.9;
+  constexpr double kOpposite = -0.5;
+  constexpr Index kLeast = 3;
+  Eigen::RowVector3d best = normals.row(point);
+  double least = std::numeric_limits<double>::infinity();
+  Index count = 0;
+  while (count < neighbours.count && neighbours.point(point, count) >= 0) ++count;
+  for (Index k = 0; k < count; ++k) {
+    const Eigen::RowVector3d side = normals.row(neighbours.point(point, k));
+    if (side.dot(normals.row(point)) <= kOpposite) continue;
+    double off = 0.0;
+    Index same = 0;
+    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+    for (Index m = 0; m < count; ++m) {
+      const Index other = neighbours.point(point, m);
+      if (normals.row(other).dot(side) < kSameSide) continue;
+      off += std::abs((points.row(point) - points.row(other)).dot(normals.row(other)));
+      sum += normals.row(other);
+      ++same;
+    }
+    if (same < kLeast || !(off < least * same)) continue;
+    least = off / same;
+    best = sum.normalized();
+  }
+  return best;
+}
+
 }  // namespace
 
 Points sharp_normals(const Points& points, Points normals, const NeighbourTable& neighbours) {
   constexpr int kRounds = 3;
+  constexpr int kSideRounds = 2;
+  constexpr double kSharp = 0.05;  // where fewer points are, a bend of the surface alone is more uneven than 0.01
   const Eigen::Index size = points.rows();
   Scalars uneven(size);
   Points taken(size, 3);
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kRounds + kSideRounds; ++round) {
     parallel_for(size, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
       for (std::ptrdiff_t i = begin; i < end; ++i) uneven[i] = disagreement(normals, neighbours, static_cast<Index>(i));
     });
     parallel_for(size, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-      for (std::ptrdiff_t i = begin; i < end; ++i)
-        taken.row(i) = normals.row(most_even(points, normals, uneven, neighbours, static_cast<Index>(i)));
+      for (std::ptrdiff_t i = begin; i < end; ++i) {
+        const auto point = static_cast<Index>(i);
+        if (round >= kRounds && uneven[i] >= kSharp)
+          taken.row(i) = best_side(points, normals, neighbours, point);
+        else
+          taken.row(i) = normals.row(round < kRounds ? most_even(points, normals, uneven, neighbours, point) : point);
+      }
     });
     normals.swap(taken);
   }

@@ -104,14 +104,21 @@ class Simplifier {
     }
   }
 
-  /// Each sample's plane counts at the nearest vertex.
+  /// Each sample's plane counts at the nearest vertices within its reach, or at the nearest one, in equal shares.
   void add_samples(const SamplePlanes& planes) {
+    constexpr Index kMost = 12;
     const PointTree tree(points_);
+    const double square = planes.reach * planes.reach;
+    std::array<Index, kMost> near{};
+    std::array<double, kMost> squares{};
     for (Eigen::Index i = 0; i < planes.points.rows(); ++i) {
-      Index v = 0;
-      double square = 0.0;
-      tree.nearest(planes.points.row(i), 1, &v, &square);
-      quadrics_[v].add_plane(planes.normals.row(i).transpose(), planes.points.row(i).transpose(), planes.areas[i]);
+      const Index found = tree.nearest(planes.points.row(i), kMost, near.data(), squares.data());
+      const auto beyond = std::upper_bound(squares.begin() + 1, squares.begin() + found, square);
+      const auto count = static_cast<Index>(beyond - squares.begin());
+      for (Index k = 0; k < count; ++k) {
+        quadrics_[near[k]].add_plane(planes.normals.row(i).transpose(), planes.points.row(i).transpose(),
+                                     planes.areas[i] / count);
+      }
     }
   }
 
