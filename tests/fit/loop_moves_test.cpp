@@ -7,6 +7,7 @@
 
 #include "batten/fit/fit_surface.h"
 #include "batten/fit/local_loop.h"
+#include "batten/fit/loop_facets.h"
 #include "batten/fit/loop_trial.h"
 #include "batten/io/io.h"
 #include "batten/mesh/primitives.h"
@@ -23,16 +24,11 @@ using test::CloudMaker;
 
 const Scheme kLoop{SchemeKind::Loop};
 
-/// All faces of a mesh, without a free control point.
+/// All faces of a mesh.
 LocalFaces whole_mesh(const Mesh& mesh) {
   const Topology topology(mesh);
   LocalFaces local;
   local.asked = mesh.face_count();
-  for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    FreePlace place;
-    for (int c = 0; c < 3; ++c) place.fixed[c] = mesh.points(v, c);
-    local.places.push_back(place);
-  }
   for (Index f = 0; f < mesh.face_count(); ++f) {
     const Index* const c = mesh.face_vertices.data() + mesh.face_offsets[f];
     local.faces.push_back({c[0], c[1], c[2]});
@@ -42,9 +38,18 @@ LocalFaces whole_mesh(const Mesh& mesh) {
   return local;
 }
 
-/// Corners of facets lie at quarters of the parameters, on creases and corners too: the surface's own jets are another
-/// implementation. Where a crease ends the facets take the limit of a smooth vertex, which is near.
-TEST(LocalLoop, AgreesWithTheLimitSurfaceAtTheCornersOfFacets) {
+/// Coordinates, and a number of two vertices each.
+std::vector<LocalValues> values_of(const Mesh& mesh) {
+  std::vector<LocalValues> values(static_cast<std::size_t>(mesh.vertex_count()), LocalValues{});
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    for (int c = 0; c < 3; ++c) values[static_cast<std::size_t>(v)][static_cast<std::size_t>(c)] = mesh.points(v, c);
+  }
+  values[1][3] = values[2][4] = 1.0;
+  return values;
+}
+
+/// With lines that end, meet and form corners.
+Mesh creased_torus() {
   Mesh mesh = triangulated(torus(7, 5));
   const Topology smooth(mesh);
   for (const Index h : {0, 3, 6, 20, 41})
@@ -54,8 +59,15 @@ TEST(LocalLoop, AgreesWithTheLimitSurfaceAtTheCornersOfFacets) {
       if (smooth.destination(h) != 12) mesh.creases.push_back({v, smooth.destination(h), kInfiniteSharpness});
     });
   }
+  return mesh;
+}
+
+/// Corners of facets lie at quarters of the parameters, on creases and corners too: the surface's own jets are another
+/// implementation. Where a crease ends the facets take the limit of a smooth vertex, which is near.
+TEST(LocalLoop, AgreesWithTheLimitSurfaceAtTheCornersOfFacets) {
+  const Mesh mesh = creased_torus();
   LocalLoop local;
-  local.refine(whole_mesh(mesh));
+  local.refine(whole_mesh(mesh), values_of(mesh));
   const LimitSurface surface(Topology(mesh), kLoop, mesh.points);
   std::vector<int> creases(static_cast<std::size_t>(mesh.vertex_count()), 0);
   for (const Crease& crease : mesh.creases) {
@@ -66,15 +78,46 @@ TEST(LocalLoop, AgreesWithTheLimitSurfaceAtTheCornersOfFacets) {
   for (Index f = 0; f < local.facet_count(); ++f) {
     const auto number = static_cast<std::size_t>(local.facet(f)[0]);
     const bool dart = number < creases.size() && creases[number] == 1;
-    const FreePlace& corner = local.places()[number];
+    const LocalValues& corner = local.limits()[number];
     double least = std::numeric_limits<double>::infinity();
     for (int u = 0; u <= 4; ++u) {
       for (int v = 0; u + v <= 4; ++v) {
         const Eigen::Vector3d place = surface.jet({f / kFacetsOfFace, 0.25 * u, 0.25 * v}).point;
-        least = std::min(least, (place - Eigen::Map<const Eigen::Vector3d>(corner.fixed.data())).norm());
+        least = std::min(least, (place - Eigen::Map<const Eigen::Vector3d>(corner.data())).norm());
       }
     }
     EXPECT_LT(least, dart ? 1e-2 : 1e-12);
+  }
+}
+
+/// Stored weights give what refinement gives, where they are found and where they are used again: with creases, at
+/// boundaries, and where three triangles meet at one corner, two, or all.
+TEST(LoopFacets, AgreeWithRefinement) {
+  Mesh sharp_grid = triangulated(grid(5, 4));
+  sharp_grid.creases.push_back({6, 7, kInfiniteSharpness});
+  for (const Mesh& mesh : {creased_torus(), sharp_grid, tetrahedron(), octahedron(), triangulated(cube())}) {
+    const LocalFaces faces = whole_mesh(mesh);
+    const std::vector<LocalValues> values = values_of(mesh);
+    LocalLoop refined;
+    refined.refine(faces, values);
+    std::vector<FreePlace> places;
+    for (const LocalValues& of : values) places.push_back({{of[0], of[1], of[2]}, {of[3], of[4]}});
+    FacetStencils stencils;
+    for (int time = 0; time < 2; ++time) {
+      LoopFacets facets(stencils);
+      facets.refine(faces, places);
+      ASSERT_EQ(facets.facet_count(), refined.facet_count());
+      for (Index f = 0; f < refined.facet_count(); ++f) {
+        for (int c = 0; c < 3; ++c) {
+          const LocalValues& limit = refined.limits()[static_cast<std::size_t>(refined.facet(f)[c])];
+          const FreePlace& place = facets.places()[static_cast<std::size_t>(facets.facet(f)[c])];
+          for (int i = 0; i < 3; ++i) EXPECT_NEAR(place.fixed[i], limit[i], 1e-14);
+          for (int i = 0; i < kMostFree; ++i) EXPECT_NEAR(place.weights[i], limit[3 + i], 1e-14);
+          EXPECT_EQ(facets.across(f, c), refined.across(f, c));
+          EXPECT_EQ(facets.is_sharp(f, c), refined.is_sharp(f, c));
+        }
+      }
+    }
   }
 }
 
@@ -86,7 +129,8 @@ TEST(LoopTrial, GainsWhatTheStateLoses) {
   for (const LoopMoveKind kind :
        {LoopMoveKind::Place, LoopMoveKind::Collapse, LoopMoveKind::Split, LoopMoveKind::Swap, LoopMoveKind::Sharpen}) {
     LoopState state(mesh, points);
-    LoopTrial trial(state, 0.0);
+    FacetStencils stencils;
+    LoopTrial trial(state, 0.0, stencils);
     for (Index edge = 0; edge < 40; edge += 4) {
       const std::vector<std::array<Index, 2>> edges = state.edges();
       const double before = state.squares();

@@ -29,10 +29,10 @@ class Attempt {
     run_ = std::make_unique<FitRun>(made_->fitter, options, made_->report, filter, start.settled);
   }
 
-  /// The first rounds; `hidden`: a watcher is not shown them before the attempt is chosen.
-  void approach(bool hidden, const Progress& progress) {
+  /// The first rounds, at most so many in all; `hidden`: a watcher is not shown them before the attempt is chosen.
+  void approach(int most, bool hidden, const Progress& progress) {
     if (hidden) run_->set_watch([this](const SurfaceFrame& frame) { frames_.add(frame); });
-    go([&] { run_->approach(progress); });
+    go([&] { run_->approach(most, progress); });
   }
 
   double rms() const { return run_->rms(); }
@@ -92,7 +92,7 @@ void find_outliers(const FitTask& task, const FitOptions& smooth, FollowedCloud&
                                               progress_within(part, 0.0, 0.3));
     auto next = std::make_unique<Attempt>(start, points.all(), smooth, task.filter, task.diameter,
                                           progress_within(part, 0.3, 0.4));
-    next->approach(false, progress_within(part, 0.4, 1.0));
+    next->approach(smooth.rounds, false, progress_within(part, 0.4, 1.0));
     attempt = std::move(next);
     if (attempt->is_cancelled() || attempt->outliers() == outliers) return;
     outliers = attempt->outliers();
@@ -100,36 +100,54 @@ void find_outliers(const FitTask& task, const FitOptions& smooth, FollowedCloud&
   }
 }
 
-/// Makes all rounds, with creases and without where those that are found are doubtful.
-FitAttempt best_attempt(const FitTask& task, const FollowedCloud& points, const Progress& progress) {
+/// The first rounds of an attempt with creases and of one without, of which the one that stays nearer to the points
+/// goes on. Few rounds of both tell where one is clearly better.
+FitAttempt better_attempt(const FitTask& task, const FollowedCloud& points, Attempt& sharp, const Progress& progress) {
+  constexpr int kFewRounds = 8;
+  constexpr double kClearly = 1.1;
   constexpr double kEarned = 1.1;  // creases that gain less are chance
   const FitOptions& options = task.options;
-  const double spacing = task.filter.spacing();
-  const FitBeginning start =
-      find_beginning(points.followed(), spacing, options, LoopStart::Moved, progress_within(progress, 0.0, kBegun));
-  const bool found = options.creases == FitCreases::Auto && !options.initial && !start.mesh.creases.empty();
-  const bool doubtful = found && options.scheme.kind == SchemeKind::CatmullClark;
-  Attempt sharp(start, points.all(), options, task.filter, task.diameter, progress_within(progress, kBegun, 0.25));
-  const double half = doubtful ? 0.4 : kApproached;
-  const bool hidden = doubtful && options.watch;
-  sharp.approach(hidden, progress_within(progress, 0.25, half));
-  const Progress rest = progress_within(progress, kApproached, 1.0);
-  if (!doubtful || sharp.is_cancelled()) return sharp.finish(options.watch, rest);
   FitOptions smooth_options = options;
   smooth_options.creases = FitCreases::None;
+  const bool hidden = static_cast<bool>(options.watch);
+  const Progress first = progress_within(progress, 0.0, 0.5);
+  const Progress rest = progress_within(progress, 0.5, 1.0);
   try {
-    const FitBeginning other = find_beginning(points.followed(), spacing, smooth_options, LoopStart::Moved,
-                                              progress_within(progress, half, half + 0.05));
-    Attempt smooth(other, points.all(), smooth_options, task.filter, task.diameter,
-                   progress_within(progress, half + 0.05, half + 0.07));
-    smooth.approach(hidden, progress_within(progress, half + 0.07, kApproached));
-    if (smooth.rms() < kEarned * sharp.rms()) return smooth.finish(options.watch, rest);
-    if (smooth.is_cancelled()) sharp.cancel();
+    sharp.approach(kFewRounds, hidden, progress_within(first, 0.0, 0.2));
+    if (sharp.is_cancelled()) return sharp.finish(options.watch, rest);
+    const FitBeginning other = find_beginning(points.followed(), task.filter.spacing(), smooth_options,
+                                              LoopStart::Moved, progress_within(first, 0.2, 0.3));
+    Attempt smooth(other, points.all(), smooth_options, task.filter, task.diameter, progress_within(first, 0.3, 0.35));
+    smooth.approach(kFewRounds, hidden, progress_within(first, 0.35, 0.5));
+    const auto cost = [&](const Attempt& attempt) { return (&attempt == &sharp ? kEarned : 1.0) * attempt.rms(); };
+    const bool sharp_leads = cost(sharp) <= cost(smooth);
+    Attempt& leading = sharp_leads ? sharp : smooth;
+    Attempt& behind = sharp_leads ? smooth : sharp;
+    const bool clear = cost(behind) > kClearly * cost(leading);
+    if (!leading.is_cancelled())
+      leading.approach(options.rounds, hidden, progress_within(first, 0.5, clear ? 1.0 : 0.75));
+    if (!clear && !leading.is_cancelled()) behind.approach(options.rounds, hidden, progress_within(first, 0.75, 1.0));
+    Attempt& chosen = clear || cost(leading) <= cost(behind) ? leading : behind;
+    if (leading.is_cancelled() || behind.is_cancelled()) chosen.cancel();
+    return chosen.finish(options.watch, rest);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::Cancelled) throw;
     sharp.cancel();
   }
   return sharp.finish(options.watch, rest);
+}
+
+/// Makes all rounds, with creases and without where those that are found are doubtful.
+FitAttempt best_attempt(const FitTask& task, const FollowedCloud& points, const Progress& progress) {
+  const FitOptions& options = task.options;
+  const FitBeginning start = find_beginning(points.followed(), task.filter.spacing(), options, LoopStart::Moved,
+                                            progress_within(progress, 0.0, kBegun));
+  const bool found = options.creases == FitCreases::Auto && !options.initial && !start.mesh.creases.empty();
+  Attempt attempt(start, points.all(), options, task.filter, task.diameter, progress_within(progress, kBegun, 0.25));
+  if (found && options.scheme.kind == SchemeKind::CatmullClark)
+    return better_attempt(task, points, attempt, progress_within(progress, 0.25, 1.0));
+  attempt.approach(options.rounds, false, progress_within(progress, 0.25, kApproached));
+  return attempt.finish(options.watch, progress_within(progress, kApproached, 1.0));
 }
 
 /// By springs.

@@ -16,6 +16,7 @@ namespace {
 /// In the end a point counts with this power of its distance.
 constexpr double kWorstPower = 2.0;
 constexpr int kJudgements = 3;
+constexpr Index kAnyNumber = std::numeric_limits<Index>::max();
 
 }  // namespace
 
@@ -28,7 +29,7 @@ const PassedSurfaces::Surface* PassedSurfaces::best(const SurfaceFitter& fitter)
   std::size_t best = 0;
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
     Surface& surface = surfaces_[i];
-    if (!surface.unsound) surface.unsound = fitter.unsound_faces(surface.control);
+    if (!surface.unsound) surface.unsound = allowed_ == kAnyNumber ? 0 : fitter.unsound_faces(surface.control);
     if (std::max(allowed_, *surface.unsound) < std::max(allowed_, *surfaces_[best].unsound)) best = i;
     if (*surface.unsound <= allowed_) break;
   }
@@ -47,16 +48,20 @@ FitRun::FitRun(SurfaceFitter& fitter, const FitOptions& options, FitReport& repo
       far_(filter.lonely()),
       outliers_(far_),
       schedule_(measured(), filter.spacing() / report.diameter, fitter.distances().size(), settled),
-      allowed_(options.initial && fitter.unsound_faces() > 0 ? std::numeric_limits<Index>::max() : 0),
+      allowed_(options.initial && fitter.unsound_faces() > 0 ? kAnyNumber : 0),
       passed_(allowed_),
       settled_(settled) {
   judge();
   if (settled) note_passed();
 }
 
-void FitRun::approach(const Progress& progress) {
-  show();
-  go_rounds(settled_ ? Soundness::Whole : Soundness::Unfolded, progress);
+void FitRun::approach(int most, const Progress& progress) {
+  if (approach_ == 0) show();
+  const int end = std::min(most, options_.rounds);
+  if (approached_ || approach_ >= end) return;
+  approached_ =
+      go_rounds(settled_ ? Soundness::Whole : Soundness::Unfolded, approach_, end, progress) || end == options_.rounds;
+  approach_ = end;
 }
 
 void FitRun::finish(const Progress& progress) {
@@ -90,10 +95,13 @@ FitErrors FitRun::measured() const { return fit_errors(fitter_.distances(), outl
 
 bool FitRun::reached(const FitErrors& errors) {
   if (!(options_.tolerance > 0.0) || !(errors.max * report_.diameter <= options_.tolerance)) return false;
-  if (fitter_.unsound_faces() > allowed_) return false;
+  if (has_unsound_beyond(allowed_)) return false;
   report_.end = FitEnd::Tolerance;
   return true;
 }
+
+/// Unsound faces are counted only where their number matters.
+bool FitRun::has_unsound_beyond(Index most) const { return most < kAnyNumber && fitter_.unsound_faces() > most; }
 
 /// Keeps the surface among those that were passed.
 void FitRun::note_passed() { passed_.note({fitter_.control(), measured().rms}); }
@@ -101,7 +109,7 @@ void FitRun::note_passed() { passed_.note({fitter_.control(), measured().rms}); 
 /// Relaxes the surface where it is not sound, and goes on from there until it is.
 void FitRun::mend() {
   constexpr int kRounds = 10;
-  for (int round = 0; round < kRounds && fitter_.unsound_faces() > allowed_; ++round) {
+  for (int round = 0; round < kRounds && has_unsound_beyond(allowed_); ++round) {
     fitter_.hold_unsound();
     if (!fitter_.relax(Soundness::Unfolded)) return;
     fitter_.attach();
@@ -137,9 +145,10 @@ void FitRun::finish_level(bool last, const Progress& progress) {
   if (last && report_.end == FitEnd::Budget) lower_worst(progress_within(progress, 0.4, 1.0));
 }
 
-void FitRun::go_rounds(Soundness asked, const Progress& progress) {
+/// Rounds number `first` to `end` of so many in a row; true where further ones would gain nothing.
+bool FitRun::go_rounds(Soundness asked, int first, int end, const Progress& progress) {
   report_.end = FitEnd::Rounds;
-  for (int round = 0; round < options_.rounds; ++round) {
+  for (int round = first; round < end; ++round) {
     report_progress(progress, static_cast<double>(round) / options_.rounds);
     go_round(asked);
     if (asked == Soundness::Unfolded) judge();
@@ -149,13 +158,14 @@ void FitRun::go_rounds(Soundness asked, const Progress& progress) {
     if (reached(errors)) {
       passed_.clear();
       passed_.note({fitter_.control(), errors.rms, 0});
-      return;
+      return true;
     }
     if (!schedule_.is_stuck()) continue;
     if (!settled_ && leave_out_far()) continue;
     report_.end = FitEnd::Budget;
-    return;
+    return true;
   }
+  return false;
 }
 
 /// Judges anew which points are far outliers, where none are lonely; true where that changes.
@@ -191,13 +201,16 @@ void FitRun::judge() {
 void FitRun::lower_worst(const Progress& progress) {
   // Where points are many, one alone is rarely far away, and rounds are long.
   constexpr Eigen::Index kPointsInAll = 60000;
-  const auto rounds = static_cast<int>(std::clamp<Eigen::Index>(kPointsInAll / fitter_.distances().size(), 4, 24));
+  constexpr Eigen::Index kFewest = 2;
+  constexpr Eigen::Index kMost = 24;
+  const auto rounds =
+      static_cast<int>(std::clamp<Eigen::Index>(kPointsInAll / fitter_.distances().size(), kFewest, kMost));
   constexpr double kExact = 1e-10;
   constexpr double kMostGrowth = 1.1;
   FitErrors best = measured();
   if (best.rms < kExact) return;
   const double most = kMostGrowth * best.rms;
-  const Index unsound = fitter_.unsound_faces();
+  const Index unsound = allowed_ == kAnyNumber ? kAnyNumber : fitter_.unsound_faces();
   passed_.clear();
   passed_.note({fitter_.control(), best.rms, unsound});
   for (int round = 0; round < rounds; ++round) {
@@ -205,7 +218,7 @@ void FitRun::lower_worst(const Progress& progress) {
     set_weights(kWorstPower);
     go_round(Soundness::Unfolded);
     const FitErrors errors = measured();
-    if (!(errors.max < best.max) || errors.rms > most || fitter_.unsound_faces() > unsound) continue;
+    if (!(errors.max < best.max) || errors.rms > most || has_unsound_beyond(unsound)) continue;
     best = errors;
     passed_.clear();
     passed_.note({fitter_.control(), best.rms, unsound});

@@ -49,8 +49,11 @@ class FitRun {
   FitRun(SurfaceFitter& fitter, const FitOptions& options, FitReport& report, const OutlierFilter& filter,
          bool settled);
 
-  /// The first rounds of the first control mesh, until they gain nothing: enough to see how well it suits the points.
-  void approach(const Progress& progress);
+  /// The first rounds of the first control mesh, until they gain nothing or there are so many in all: enough to see how
+  /// well it suits the points.
+  void approach(int most, const Progress& progress);
+  /// True where further rounds of approach() would gain nothing.
+  bool has_approached() const { return approached_; }
   /// All that is left after approach(), refinements included.
   void finish(const Progress& progress);
   /// Leaves the best surface of a fit that was interrupted.
@@ -68,12 +71,14 @@ class FitRun {
  private:
   FitErrors measured() const;
   bool reached(const FitErrors& errors);
+  bool has_unsound_beyond(Index most) const;
   void note_passed();
   void mend();
   bool return_to_best();
   Index next_count() const;
   void finish_level(bool last, const Progress& progress);
-  void go_rounds(Soundness asked, const Progress& progress);
+  void go_rounds(Soundness asked, const Progress& progress) { go_rounds(asked, 0, options_.rounds, progress); }
+  bool go_rounds(Soundness asked, int first, int end, const Progress& progress);
   bool leave_out_far();
   void judge();
   void lower_worst(const Progress& progress);
@@ -95,7 +100,9 @@ class FitRun {
   PassedSurfaces passed_;
   double gain_ = 1.0;  ///< the share of the objective that the last round took off
   bool settled_;
-  int judged_ = 0;  ///< how often outliers were sought for the present control mesh
+  bool approached_ = false;
+  int approach_ = 0;  ///< rounds of it
+  int judged_ = 0;    ///< how often outliers were sought for the present control mesh
 };
 
 }  // namespace batten

@@ -22,6 +22,9 @@ constexpr double kPullFall = 0.8;
 constexpr double kGain = 0.02;
 constexpr double kPointsOfGain = 20000.0;
 constexpr double kMostGain = 0.1;
+/// So many rounds without gain in a row end a series, and fewer where rounds are long.
+constexpr int kIdle = 3;
+constexpr int kIdleOfLong = 2;
 /// A finer mesh has sixteen times as little energy for the same shape.
 constexpr double kOfRefined = 4.0;
 
@@ -34,7 +37,8 @@ double FitSchedule::wanted_pull(const FitErrors& errors) const {
 FitSchedule::FitSchedule(const FitErrors& errors, double spacing, Eigen::Index points, bool settled)
     : best_(errors),
       spacing_(spacing),
-      least_gain_(std::clamp(kGain * static_cast<double>(points) / kPointsOfGain, kGain, kMostGain)) {
+      least_gain_(std::clamp(kGain * static_cast<double>(points) / kPointsOfGain, kGain, kMostGain)),
+      most_idle_(least_gain_ > kGain ? kIdleOfLong : kIdle) {
   step_.pull = settled ? std::min(1.0, wanted_pull(errors)) : 1.0;
   step_.fairness = std::min(kMostFair, std::max(kLeastFairness, kFairnessOfSquares * errors.bulk * errors.bulk));
   choose(errors);

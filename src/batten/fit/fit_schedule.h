@@ -23,10 +23,9 @@ class FitSchedule {
   /// After a change that makes what was reached before count no longer, as other outliers.
   void note_restart(const FitErrors& errors);
   /// True where the last rounds have gained too little.
-  bool is_stuck() const { return idle_ >= kIdle; }
+  bool is_stuck() const { return idle_ >= most_idle_; }
 
  private:
-  static constexpr int kIdle = 3;
   void choose(const FitErrors& errors);
   double wanted_pull(const FitErrors& errors) const;
 
@@ -34,6 +33,7 @@ class FitSchedule {
   FitErrors best_;
   double spacing_;
   double least_gain_;
+  int most_idle_;
   int idle_ = 0;
 };
 

@@ -11,12 +11,36 @@ namespace {
 Index next_in_face(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
 Index last_in_face(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
+/// to += weight * from.
+void add_scaled(double weight, const LocalValues& from, LocalValues& to) {
+  for (std::size_t c = 0; c < from.size(); ++c) to[c] += weight * from[c];
+}
+
 }  // namespace
+
+void find_twins(const std::vector<std::array<Index, 3>>& faces, std::vector<Index>& twins,
+                std::vector<std::array<Index, 3>>& work) {
+  const std::size_t count = 3 * faces.size();
+  twins.assign(count, -1);
+  work.resize(count);
+  for (std::size_t h = 0; h < count; ++h) {
+    const std::array<Index, 3>& face = faces[h / 3];
+    const Index a = face[h % 3];
+    const Index b = face[(h + 1) % 3];
+    work[h] = {std::min(a, b), std::max(a, b), static_cast<Index>(h)};
+  }
+  std::sort(work.begin(), work.end());
+  for (std::size_t i = 0; i + 1 < count; ++i) {
+    if (work[i][0] != work[i + 1][0] || work[i][1] != work[i + 1][1]) continue;
+    twins[work[i][2]] = work[i + 1][2];
+    twins[work[i + 1][2]] = work[i][2];
+  }
+}
 
 /// The sums that the masks of a vertex are made of.
 struct LocalLoop::Ring {
-  FreePlace all;
-  FreePlace sharp;
+  LocalValues all{};
+  LocalValues sharp{};
   int count = 0;
   int sharp_count = 0;
 };
@@ -31,10 +55,10 @@ LocalLoop::LocalLoop() {
 LocalLoop::Ring LocalLoop::ring_of(const Level& level, Index vertex) const {
   Ring ring;
   const auto take = [&](Index neighbour, bool sharp) {
-    add_scaled(1.0, level.places[neighbour], ring.all);
+    add_scaled(1.0, level.values[neighbour], ring.all);
     ++ring.count;
     if (!sharp) return;
-    add_scaled(1.0, level.places[neighbour], ring.sharp);
+    add_scaled(1.0, level.values[neighbour], ring.sharp);
     ++ring.sharp_count;
   };
   const auto end_of = [&](Index h) { return level.faces[next_in_face(h) / 3][next_in_face(h) % 3]; };
@@ -56,63 +80,46 @@ LocalLoop::Ring LocalLoop::ring_of(const Level& level, Index vertex) const {
   return ring;
 }
 
-FreePlace LocalLoop::moved_vertex(const Level& level, Index vertex, bool limit) const {
+LocalValues LocalLoop::moved_vertex(const Level& level, Index vertex, bool limit) const {
+  if (level.outgoing[vertex] < 0) return level.values[vertex];
   const Ring ring = ring_of(level, vertex);
-  if (ring.sharp_count > 2) return level.places[vertex];
-  FreePlace place;
+  if (ring.sharp_count > 2) return level.values[vertex];
+  LocalValues value{};
   if (ring.sharp_count == 2) {
-    add_scaled(limit ? 2.0 / 3.0 : 0.75, level.places[vertex], place);
-    add_scaled(limit ? 1.0 / 6.0 : 0.125, ring.sharp, place);
-    return place;
+    add_scaled(limit ? 2.0 / 3.0 : 0.75, level.values[vertex], value);
+    add_scaled(limit ? 1.0 / 6.0 : 0.125, ring.sharp, value);
+    return value;
   }
   const int valence = std::clamp(ring.count, 3, kMostValence);
   const double own = (limit ? limit_weights_ : vertex_weights_)[valence];
-  add_scaled(own, level.places[vertex], place);
-  add_scaled((1.0 - own) / ring.count, ring.all, place);
-  return place;
-}
-
-void LocalLoop::find_twins(Level& level) {
-  const std::size_t count = 3 * level.faces.size();
-  level.twins.assign(count, -1);
-  ends_.resize(count);
-  for (std::size_t h = 0; h < count; ++h) {
-    const std::array<Index, 3>& face = level.faces[h / 3];
-    const Index a = face[h % 3];
-    const Index b = face[(h + 1) % 3];
-    ends_[h] = {std::min(a, b), std::max(a, b), static_cast<Index>(h)};
-  }
-  std::sort(ends_.begin(), ends_.end());
-  for (std::size_t i = 0; i + 1 < count; ++i) {
-    if (ends_[i][0] != ends_[i + 1][0] || ends_[i][1] != ends_[i + 1][1]) continue;
-    level.twins[ends_[i][2]] = ends_[i + 1][2];
-    level.twins[ends_[i + 1][2]] = ends_[i][2];
-  }
+  add_scaled(own, level.values[vertex], value);
+  add_scaled((1.0 - own) / ring.count, ring.all, value);
+  return value;
 }
 
 void LocalLoop::refine_level(const Level& from, Level& to) {
   const auto half_edges = static_cast<Index>(from.twins.size());
-  const auto vertices = static_cast<Index>(from.places.size());
+  const auto vertices = static_cast<Index>(from.values.size());
   edges_.resize(from.twins.size());
   Index next = vertices;
   for (Index h = 0; h < half_edges; ++h)
     edges_[h] = from.twins[h] >= 0 && from.twins[h] < h ? edges_[from.twins[h]] : next++;
-  to.places.resize(static_cast<std::size_t>(next));
+  to.values.resize(static_cast<std::size_t>(next));
   to.outgoing.assign(static_cast<std::size_t>(next), -1);
-  for (Index v = 0; v < vertices; ++v) to.places[v] = moved_vertex(from, v, false);
+  for (Index v = 0; v < vertices; ++v) to.values[v] = moved_vertex(from, v, false);
   for (Index h = 0; h < half_edges; ++h) {
     const Index twin = from.twins[h];
     if (twin >= 0 && twin < h) continue;
-    const auto corner = [&](Index of) -> const FreePlace& { return from.places[from.faces[of / 3][of % 3]]; };
-    FreePlace place;
+    const auto corner = [&](Index of) -> const LocalValues& { return from.values[from.faces[of / 3][of % 3]]; };
+    LocalValues value{};
     const bool sharp = twin < 0 || from.sharp[h] != 0;
-    add_scaled(sharp ? 0.5 : 0.375, corner(h), place);
-    add_scaled(sharp ? 0.5 : 0.375, corner(next_in_face(h)), place);
+    add_scaled(sharp ? 0.5 : 0.375, corner(h), value);
+    add_scaled(sharp ? 0.5 : 0.375, corner(next_in_face(h)), value);
     if (!sharp) {
-      add_scaled(0.125, corner(last_in_face(h)), place);
-      add_scaled(0.125, corner(last_in_face(twin)), place);
+      add_scaled(0.125, corner(last_in_face(h)), value);
+      add_scaled(0.125, corner(last_in_face(twin)), value);
     }
-    to.places[edges_[h]] = place;
+    to.values[edges_[h]] = value;
   }
   const std::size_t faces = from.faces.size();
   to.faces.resize(4 * faces);
@@ -141,8 +148,8 @@ void LocalLoop::refine_level(const Level& from, Level& to) {
 }
 
 void LocalLoop::find_limits() {
-  limits_.resize(fine_.places.size());
-  done_.assign(fine_.places.size(), 0);
+  limits_.resize(fine_.values.size());
+  done_.assign(fine_.values.size(), 0);
   for (Index f = 0; f < facet_count(); ++f) {
     for (const Index v : fine_.faces[f]) {
       if (done_[v] != 0) continue;
@@ -152,16 +159,47 @@ void LocalLoop::find_limits() {
   }
 }
 
-void LocalLoop::refine(const LocalFaces& control) {
+/// Leaves the faces that touch the first `wanted` ones.
+void LocalLoop::keep_near(Level& level, std::size_t wanted) {
+  done_.assign(level.values.size(), 0);
+  for (std::size_t f = 0; f < wanted; ++f) {
+    for (const Index v : level.faces[f]) done_[v] = 1;
+  }
+  number_.assign(level.faces.size(), -1);
+  Index kept = 0;
+  for (std::size_t f = 0; f < level.faces.size(); ++f) {
+    const std::array<Index, 3>& face = level.faces[f];
+    if (std::any_of(face.begin(), face.end(), [&](Index v) { return done_[v] != 0; })) number_[f] = kept++;
+  }
+  level.outgoing.assign(level.values.size(), -1);
+  for (std::size_t f = 0; f < level.faces.size(); ++f) {
+    if (number_[f] < 0) continue;
+    const auto to = static_cast<std::size_t>(number_[f]);
+    level.faces[to] = level.faces[f];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Index twin = level.twins[3 * f + c];
+      const Index face = twin < 0 ? -1 : number_[twin / 3];
+      level.twins[3 * to + c] = face < 0 ? -1 : 3 * face + twin % 3;
+      level.sharp[3 * to + c] = level.sharp[3 * f + c];
+      level.outgoing[level.faces[to][c]] = static_cast<Index>(3 * to + c);
+    }
+  }
+  level.faces.resize(static_cast<std::size_t>(kept));
+  level.twins.resize(3 * static_cast<std::size_t>(kept));
+  level.sharp.resize(3 * static_cast<std::size_t>(kept));
+}
+
+void LocalLoop::refine(const LocalFaces& control, std::span<const LocalValues> values) {
   asked_ = control.asked;
   control_.faces = control.faces;
   control_.sharp = control.sharp;
-  control_.places = control.places;
-  find_twins(control_);
-  control_.outgoing.assign(control_.places.size(), -1);
+  control_.values.assign(values.begin(), values.end());
+  find_twins(control_.faces, control_.twins, ends_);
+  control_.outgoing.assign(control_.values.size(), -1);
   for (std::size_t h = 0; h < control_.twins.size(); ++h)
     control_.outgoing[control_.faces[h / 3][h % 3]] = static_cast<Index>(h);
   refine_level(control_, middle_);
+  keep_near(middle_, 4 * static_cast<std::size_t>(asked_));
   refine_level(middle_, fine_);
   find_limits();
 }

@@ -1,4 +1,4 @@
-/// \file The limit surface of Loop's scheme over a few triangles, as facets that depend on some free control points.
+/// \file The limit surface of Loop's scheme over a few triangles, as facets.
 #pragma once
 #include <Eigen/Core>
 #include <array>
@@ -10,45 +10,38 @@
 
 namespace batten {
 
-/// At most so many control points are free.
-inline constexpr int kMostFree = 2;
 /// A triangle of the control mesh becomes so many facets.
 inline constexpr int kFacetsOfFace = 16;
 
-/// What a point of the surface is: a fixed place, plus a weight of each free control point.
-struct FreePlace {
-  std::array<double, 3> fixed{};
-  std::array<double, kMostFree> weights{};
-};
-
-/// to += weight * from.
-inline void add_scaled(double weight, const FreePlace& from, FreePlace& to) {
-  for (std::size_t c = 0; c < from.fixed.size(); ++c) to.fixed[c] += weight * from.fixed[c];
-  for (std::size_t c = 0; c < from.weights.size(); ++c) to.weights[c] += weight * from.weights[c];
-}
+/// Numbers of a vertex, each refined by itself.
+using LocalValues = std::array<double, 16>;
 
 /// Part of a triangle mesh: the first `asked` faces are those whose surface is wanted; all others that touch their
 /// vertices follow. Half-edge 3 f + i runs from corner i of face f to the next.
 struct LocalFaces {
   std::vector<std::array<Index, 3>> faces;
   std::vector<std::uint8_t> sharp;  ///< one flag a half-edge; the same for both of an edge
-  std::vector<FreePlace> places;    ///< one a vertex
   Index asked = 0;
 };
 
+/// The half-edge across each one, -1 where there is none, by sorting in `work`.
+void find_twins(const std::vector<std::array<Index, 3>>& faces, std::vector<Index>& twins,
+                std::vector<std::array<Index, 3>>& work);
+
 /// Two steps of refinement and the limit positions of the corners: kFacetsOfFace facets a face, whose numbers do not
 /// depend on what is around it. Sharp edges and boundaries follow the rules of infinite sharpness. An object keeps its
-/// memory from one call to the next.
+/// memory from one call to the next. A vertex without faces stays.
 class LocalLoop {
  public:
   LocalLoop();
-  void refine(const LocalFaces& control);
+  /// values: of each vertex of the faces.
+  void refine(const LocalFaces& control, std::span<const LocalValues> values);
 
   Index facet_count() const { return kFacetsOfFace * asked_; }
-  /// The corners of a facet, as numbers of places().
+  /// The corners of a facet, as numbers of limits().
   const std::array<Index, 3>& facet(Index number) const { return fine_.faces[static_cast<std::size_t>(number)]; }
   /// Of all vertices of the facets.
-  std::span<const FreePlace> places() const { return limits_; }
+  std::span<const LocalValues> limits() const { return limits_; }
   /// The facet across side i, which runs from corner i to the next; -1 where there is none.
   Index across(Index number, int side) const {
     const Index twin = fine_.twins[3 * static_cast<std::size_t>(number) + side];
@@ -62,13 +55,13 @@ class LocalLoop {
     std::vector<Index> twins;
     std::vector<std::uint8_t> sharp;
     std::vector<Index> outgoing;  ///< a half-edge of each vertex
-    std::vector<FreePlace> places;
+    std::vector<LocalValues> values;
   };
   struct Ring;
   Ring ring_of(const Level& level, Index vertex) const;
-  FreePlace moved_vertex(const Level& level, Index vertex, bool limit) const;
-  void find_twins(Level& level);
+  LocalValues moved_vertex(const Level& level, Index vertex, bool limit) const;
   void refine_level(const Level& from, Level& to);
+  void keep_near(Level& level, std::size_t wanted);
   void find_limits();
 
   static constexpr int kMostValence = 64;
@@ -78,10 +71,11 @@ class LocalLoop {
   Level control_;
   Level middle_;
   Level fine_;
-  std::vector<FreePlace> limits_;
+  std::vector<LocalValues> limits_;
   std::vector<Index> edges_;
   std::vector<std::array<Index, 3>> ends_;
   std::vector<std::uint8_t> done_;
+  std::vector<Index> number_;
 };
 
 }  // namespace batten

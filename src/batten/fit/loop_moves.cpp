@@ -83,7 +83,7 @@ class LoopMover {
       if (around.empty()) return;
       fairness *= kGrowth;
       if (round >= kSharpRounds) smooth_edges_at(around);
-      LoopTrial trial(state_, fairness);
+      LoopTrial trial(state_, fairness, stencils_);
       for (const Index v : around) make(trial, {LoopMoveKind::Place, v, v}, 0.0);
     }
   }
@@ -134,7 +134,7 @@ class LoopMover {
     parallel_for(
         static_cast<std::ptrdiff_t>(moves.size()),
         [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-          LoopTrial trial(state_, fairness_);
+          LoopTrial trial(state_, fairness_, stencils_);
           for (std::ptrdiff_t i = begin; i < end; ++i) {
             LoopMove& move = moves[static_cast<std::size_t>(i)];
             move.gain = trial.gain(move, 1) - own_cost(move);
@@ -161,7 +161,7 @@ class LoopMover {
   }
 
   void place_all() {
-    LoopTrial trial(state_, fairness_);
+    LoopTrial trial(state_, fairness_, stencils_);
     for (Index v = 0; v < state_.vertex_end(); ++v) make(trial, {LoopMoveKind::Place, v, v}, 0.0);
   }
 
@@ -195,7 +195,7 @@ class LoopMover {
   bool make_all(std::vector<LoopMove> moves) {
     const double least = 0.02 * cost_;
     rank(moves, least);
-    LoopTrial trial(state_, fairness_);
+    LoopTrial trial(state_, fairness_, stencils_);
     bool any = false;
     for (const LoopMove& move : moves) {
       const bool still = move.kind != LoopMoveKind::Sharpen || may_sharpen(move.a, move.b);
@@ -213,7 +213,7 @@ class LoopMover {
     cost_ = vertex_cost();
     std::vector<LoopMove> splits = split_candidates();
     rank(splits, 0.5 * cost_);
-    LoopTrial trial(state_, fairness_);
+    LoopTrial trial(state_, fairness_, stencils_);
     for (const LoopMove& move : splits) {
       if (state_.vertex_count() >= most) break;
       make(trial, move, 0.5 * cost_);
@@ -223,7 +223,7 @@ class LoopMover {
       rank(collapses, -std::numeric_limits<double>::infinity());
       const Index before = state_.vertex_count();
       const Index enough = std::max(options_.vertices, before - std::max<Index>(8, before / 8));
-      LoopTrial again(state_, fairness_);
+      LoopTrial again(state_, fairness_, stencils_);
       for (const LoopMove& move : collapses) {
         if (state_.vertex_count() <= enough) break;
         // Others have changed the surroundings: what costs much more now waits for the next round.
@@ -254,6 +254,7 @@ class LoopMover {
   const LoopMoveOptions& options_;
   const Progress& progress_;
   LoopState state_;
+  mutable FacetStencils stencils_;
   double done_ = 0.0;  ///< of the progress
   int tried_ = 0;
   double cost_ = 0.0;

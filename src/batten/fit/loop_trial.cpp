@@ -17,7 +17,8 @@ bool has(const std::vector<Index>& list, Index value) {
 
 }  // namespace
 
-LoopTrial::LoopTrial(const LoopState& state, double fairness) : state_(&state), fairness_(fairness) {}
+LoopTrial::LoopTrial(const LoopState& state, double fairness, FacetStencils& stencils)
+    : state_(&state), fairness_(fairness), surface_(stencils) {}
 
 bool LoopTrial::collapse_allowed(Index a, Index b) const {
   const std::vector<Index> around_a = state_->neighbours(a);
@@ -66,7 +67,7 @@ bool LoopTrial::is_allowed(const LoopMove& move) const {
 }
 
 /// The faces within three rings.
-void LoopTrial::gather(const std::vector<Index>& seeds) {
+void LoopTrial::gather(std::span<const Index> seeds) {
   face_mark_.resize(static_cast<std::size_t>(state_->face_end()), 0);
   local_of_.resize(static_cast<std::size_t>(state_->vertex_end()) + 1, -1);
   ++round_;
@@ -147,33 +148,33 @@ bool LoopTrial::edited_sharp(Index u, Index v) const {
 
 /// The faces whose surface changes first, then those around them; others go.
 void LoopTrial::order_faces() {
-  std::vector<Index> near = free_;
-  std::vector<EditedFace> ordered;
-  std::vector<std::uint8_t> taken(edited_.size(), 0);
+  near_mark_.resize(static_cast<std::size_t>(state_->vertex_end()) + 1, 0);
+  for (const Index v : free_) near_mark_[v] = round_;
+  ordered_.clear();
+  taken_.assign(edited_.size(), 0);
   for (int ring = 0; ring < 3; ++ring) {
-    std::sort(near.begin(), near.end());
-    const std::size_t before = ordered.size();
+    const std::size_t before = ordered_.size();
     for (std::size_t i = 0; i < edited_.size(); ++i) {
       const std::array<Index, 3>& c = edited_[i].corners;
-      if (taken[i] != 0 ||
-          std::none_of(c.begin(), c.end(), [&](Index v) { return std::binary_search(near.begin(), near.end(), v); }))
+      if (taken_[i] != 0 || std::none_of(c.begin(), c.end(), [&](Index v) { return near_mark_[v] == round_; }))
         continue;
-      taken[i] = 1;
-      ordered.push_back(edited_[i]);
+      taken_[i] = 1;
+      ordered_.push_back(edited_[i]);
     }
-    if (ring == 1) local_.asked = static_cast<Index>(ordered.size());
+    if (ring == 1) local_.asked = static_cast<Index>(ordered_.size());
     if (ring == 2) break;
-    for (std::size_t i = before; i < ordered.size(); ++i)
-      near.insert(near.end(), ordered[i].corners.begin(), ordered[i].corners.end());
+    for (std::size_t i = before; i < ordered_.size(); ++i) {
+      for (const Index v : ordered_[i].corners) near_mark_[v] = round_;
+    }
   }
-  edited_ = std::move(ordered);
+  edited_.swap(ordered_);
 }
 
 void LoopTrial::build() {
   vertices_.clear();
   local_.faces.resize(edited_.size());
   local_.sharp.assign(3 * edited_.size(), 0);
-  local_.places.clear();
+  places_.clear();
   for (std::size_t f = 0; f < edited_.size(); ++f) {
     for (int c = 0; c < 3; ++c) {
       const Index v = edited_[f].corners[c];
@@ -187,14 +188,14 @@ void LoopTrial::build() {
         } else {
           for (int k = 0; k < 3; ++k) place.fixed[k] = state_->place(v)[k];
         }
-        local_.places.push_back(place);
+        places_.push_back(place);
       }
       local_.faces[f][c] = local_of_[v];
       local_.sharp[3 * f + c] = edited_sharp(v, edited_[f].corners[(c + 1) % 3]) ? 1 : 0;
     }
   }
   for (const Index v : vertices_) local_of_[v] = -1;
-  surface_.refine(local_);
+  surface_.refine(local_, places_);
 }
 
 void LoopTrial::gather_points() {
@@ -215,7 +216,8 @@ void LoopTrial::gather_points() {
 double LoopTrial::gain(const LoopMove& move, int steps) {
   if (!is_allowed(move)) return kNever;
   move_ = move;
-  gather(move.kind == LoopMoveKind::Place ? std::vector<Index>{move.a} : std::vector<Index>{move.a, move.b});
+  const std::array<Index, 2> ends{move.a, move.b};
+  gather(std::span<const Index>(ends).first(move.kind == LoopMoveKind::Place ? 1 : 2));
   edit(move);
   const Eigen::Vector3d a = state_->place(move.a);
   free_ = {move.a};

@@ -1,10 +1,12 @@
 /// \file One local change of a Loop surface, tried on the limit surface around it.
 #pragma once
 #include <array>
+#include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
-#include "batten/fit/local_loop.h"
+#include "batten/fit/loop_facets.h"
 #include "batten/fit/loop_state.h"
 
 namespace batten {
@@ -28,12 +30,12 @@ struct LoopMove {
 
 /// Tries moves (Hoppe and others 1993, 1994, keys HDDMS93, HDDH94): the few control points that a move changes go to
 /// where the squared distances of the points around are least, by steps to second order in the distance from facets of
-/// the limit surface (fit/local_loop.h). An object keeps its memory; one thread uses it.
+/// the limit surface (fit/loop_facets.h). An object keeps its memory; one thread uses it.
 class LoopTrial {
  public:
   /// fairness: what the squared distance of a control point from the mean of its neighbours costs, on sharp lines from
   /// the mean of its two neighbours there.
-  LoopTrial(const LoopState& state, double fairness);
+  LoopTrial(const LoopState& state, double fairness, FacetStencils& stencils);
 
   /// How much smaller the sum of squared distances and bends becomes; minus infinity where the move would change the
   /// topology or the net of sharp edges, make a valence below 3 or above 12 at an inner vertex, or fold the surface
@@ -55,7 +57,7 @@ class LoopTrial {
   };
   bool is_allowed(const LoopMove& move) const;
   bool collapse_allowed(Index a, Index b) const;
-  void gather(const std::vector<Index>& seeds);
+  void gather(std::span<const Index> seeds);
   void edit(const LoopMove& move);
   bool edited_sharp(Index u, Index v) const;
   void order_faces();
@@ -81,12 +83,16 @@ class LoopTrial {
   Index round_ = 0;
   std::vector<Index> faces_;  ///< of the state, around the move
   std::vector<EditedFace> edited_;
+  std::vector<EditedFace> ordered_;
+  std::vector<std::uint8_t> taken_;
+  std::vector<Index> near_mark_;
   std::vector<Index> dropped_;
   std::vector<Index> free_;  ///< vertices; those from vertex_end() on are new
   std::vector<Eigen::Vector3d> free_place_;
   std::vector<Index> vertices_;  ///< local to the state's number
   LocalFaces local_;
-  LocalLoop surface_;
+  std::vector<FreePlace> places_;  ///< of the vertices of local_
+  LoopFacets surface_;
   std::vector<Eigen::Vector3d> corners_;  ///< of facets
   std::vector<Eigen::Vector3d> normals_;  ///< of facets, not of unit length
   std::vector<LocalPoint> points_;

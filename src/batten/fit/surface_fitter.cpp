@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,6 +44,13 @@ EnergyOptions thin_plate() {
 
 }  // namespace
 
+/// A surface and which of its faces are not sound.
+struct JudgedSurface {
+  Values control;
+  Soundness asked;
+  Buffer<std::uint8_t> flags;  ///< one a face of the control mesh
+};
+
 /// What belongs to one control mesh.
 struct FitLevel {
   Topology topology;
@@ -58,6 +64,7 @@ struct FitLevel {
   NormalEquations equations;
   double energy_scale;
   SurfaceQuadrature samples;  ///< places that are drawn to the data
+  std::vector<JudgedSurface> judged;
 
   FitLevel(const Topology& topology_in, const Scheme& scheme, ConstValuesRef control, const Progress& progress)
       : topology(topology_in),
@@ -72,6 +79,27 @@ struct FitLevel {
             SurfaceEnergy(patches, thin_plate()).matrix(EnergyKind::Stiffness, progress_within(progress, 0.6, 1.0))),
         energy_scale(scale_of(equations.energy())),
         samples(surface_quadrature(patches, {kSamplePoints, 0})) {}
+
+  /// Keeps what is known of a surface: a round often asks about one that the last round has judged.
+  void note(JudgedSurface one) {
+    constexpr std::size_t kKept = 3;
+    if (judged.size() == kKept) judged.erase(judged.begin());
+    judged.push_back(std::move(one));
+  }
+
+  Buffer<std::uint8_t> flags_of(const Values& control, Soundness asked) {
+    const auto known = std::find_if(judged.begin(), judged.end(), [&](const JudgedSurface& one) {
+      return one.asked == asked && one.control == control;
+    });
+    if (known != judged.end()) return known->flags;
+    note({control, asked, guard.unsound(control, asked)});
+    return judged.back().flags;
+  }
+
+  Index unsound_count(const Values& control) {
+    const Buffer<std::uint8_t> flags = flags_of(control, Soundness::Whole);
+    return static_cast<Index>(std::count(flags.begin(), flags.end(), 1));
+  }
 
   /// Makes the mean diagonal 1/V, as that of the mean squared distance is about.
   static double scale_of(const NormalEquations::Matrix& energy) {
@@ -92,12 +120,6 @@ struct FitState {
   std::unique_ptr<FitLevel> level;
   std::vector<NearestPoint> attached;
   Scalars distances;
-  std::optional<Buffer<std::uint8_t>> unsound = {};  ///< one flag a face of the control mesh, once asked for
-
-  const Buffer<std::uint8_t>& unsound_flags() {
-    if (!unsound) unsound = level->guard.unsound(control, Soundness::Whole);
-    return *unsound;
-  }
 };
 
 struct SurfaceFitter::Parts : FitState {};
@@ -122,11 +144,11 @@ void hold_around(const Topology& topology, Index face, Buffer<std::uint8_t>& hel
 
 /// The control points moved, where those around faces that would become unsound go a shorter way or none; these are
 /// flagged in `held`. What is unsound already may stay so.
-Values kept_sound(const FitLevel& level, const Values& control, const Values& step, Soundness asked,
+Values kept_sound(FitLevel& level, const Values& control, const Values& step, Soundness asked,
                   Buffer<std::uint8_t>& held) {
   constexpr int kHalvings = 3;
   constexpr int kTrials = 8;
-  const Buffer<std::uint8_t> before = level.guard.unsound(control, asked);
+  const Buffer<std::uint8_t> before = level.flags_of(control, asked);
   Scalars share = Scalars::Ones(control.rows());
   for (int trial = 0; trial < kTrials; ++trial) {
     Values moved = control + share.asDiagonal() * step;
@@ -138,7 +160,10 @@ Values kept_sound(const FitLevel& level, const Values& control, const Values& st
       any = true;
       hold_around(level.topology, f, around);
     }
-    if (!any) return moved;
+    if (!any) {
+      level.note({moved, asked, after});
+      return moved;
+    }
     for (std::size_t v = 0; v < held.size(); ++v) {
       if (around[v] == 0) continue;
       held[v] = 1;
@@ -346,7 +371,6 @@ Values SurfaceFitter::find_step(const FitStep& options, SolveReport* report) con
 }
 
 void SurfaceFitter::move_to(const Values& control) {
-  parts_->unsound.reset();
   parts_->level->nearest.set_control(control);
   parts_->level->surface.set_control(control);
   parts_->control = control;
@@ -375,20 +399,13 @@ bool SurfaceFitter::relax(Soundness asked) {
   return true;
 }
 
-Index SurfaceFitter::unsound_faces() const {
-  const Buffer<std::uint8_t>& flags = parts_->unsound_flags();
-  return static_cast<Index>(std::count(flags.begin(), flags.end(), 1));
-}
+Index SurfaceFitter::unsound_faces() const { return unsound_faces(parts_->control); }
 
-Index SurfaceFitter::unsound_faces(const Values& control) const {
-  if (control == parts_->control) return unsound_faces();
-  const Buffer<std::uint8_t> flags = parts_->level->guard.unsound(control, Soundness::Whole);
-  return static_cast<Index>(std::count(flags.begin(), flags.end(), 1));
-}
+Index SurfaceFitter::unsound_faces(const Values& control) const { return parts_->level->unsound_count(control); }
 
 Index SurfaceFitter::hold_unsound() {
   FitLevel& level = *parts_->level;
-  const Buffer<std::uint8_t>& flags = parts_->unsound_flags();
+  const Buffer<std::uint8_t> flags = level.flags_of(parts_->control, Soundness::Whole);
   for (Index f = 0; f < static_cast<Index>(flags.size()); ++f) {
     if (flags[f] != 0) hold_around(level.topology, f, level.held);
   }
@@ -399,7 +416,6 @@ void SurfaceFitter::refine() {
   Parts& parts = *parts_;
   const Refinement refinement(parts.level->topology, parts.scheme);
   parts.control = refinement.apply(parts.control);
-  parts.unsound.reset();
   parts.scheme = parts.scheme.after_first_step();
   parts.level = std::make_unique<FitLevel>(refinement.child(), parts.scheme, parts.control, Progress());
 }

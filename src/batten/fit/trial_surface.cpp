@@ -60,8 +60,7 @@ void LoopTrial::find_bends() {
     for (int c = 0; c < 3; ++c) {
       const Index v = local_.faces[f][c];
       const Index next = local_.faces[f][(c + 1) % 3];
-      if (near[v] != 0)
-        sums[v].add(next, local_.faces[f][(c + 2) % 3], local_.sharp[3 * f + c] != 0, local_.places[next]);
+      if (near[v] != 0) sums[v].add(next, local_.faces[f][(c + 2) % 3], local_.sharp[3 * f + c] != 0, places_[next]);
     }
   }
   bends_.clear();
@@ -70,7 +69,7 @@ void LoopTrial::find_bends() {
     if (near[v] == 0) continue;
     bent_.push_back(vertices_[v]);
     if (sums[v].is_open() || sums[v].is_corner()) continue;
-    bends_.push_back(sums[v].bend(local_.places[v]));
+    bends_.push_back(sums[v].bend(places_[v]));
   }
   for (const Index v : {move_.a, move_.b}) {
     if (std::find(bent_.begin(), bent_.end(), v) == bent_.end()) bent_.push_back(v);
@@ -110,14 +109,10 @@ Eigen::Vector3d LoopTrial::at(const FreePlace& place) const {
 void LoopTrial::place_facets() {
   const std::span<const FreePlace> places = surface_.places();
   corners_.resize(places.size());
-  for (Index f = 0; f < surface_.facet_count(); ++f) {
-    for (const Index v : surface_.facet(f)) {
-      corners_[v] = at(places[static_cast<std::size_t>(v)]);
-    }
-  }
+  for (std::size_t v = 0; v < places.size(); ++v) corners_[v] = at(places[v]);
   normals_.resize(static_cast<std::size_t>(surface_.facet_count()));
   for (Index f = 0; f < surface_.facet_count(); ++f) {
-    const std::array<Index, 3>& c = surface_.facet(f);
+    const std::array<Index, 3> c = surface_.facet(f);
     normals_[f] = (corners_[c[1]] - corners_[c[0]]).cross(corners_[c[2]] - corners_[c[0]]);
   }
 }
@@ -126,7 +121,7 @@ void LoopTrial::project(LocalPoint& point) {
   const Eigen::Vector3d p = state_->points().row(point.point).transpose();
   Eigen::Vector2d shares;
   const auto square_of = [&](Index facet) {
-    const std::array<Index, 3>& c = surface_.facet(facet);
+    const std::array<Index, 3> c = surface_.facet(facet);
     const Eigen::Vector3d& from = corners_[c[0]];
     const Eigen::Vector3d u = corners_[c[1]] - from;
     const Eigen::Vector3d v = corners_[c[2]] - from;
@@ -191,7 +186,7 @@ void LoopTrial::step() {
   Vector right = Vector::Zero(3 * count);
   const std::span<const FreePlace> places = surface_.places();
   for (const LocalPoint& point : points_) {
-    const std::array<Index, 3>& c = surface_.facet(point.facet);
+    const std::array<Index, 3> c = surface_.facet(point.facet);
     const Eigen::Vector3d p = state_->points().row(point.point).transpose();
     const Eigen::Vector2d shares =
         nearest_in_triangle(p - corners_[c[0]], corners_[c[1]] - corners_[c[0]], corners_[c[2]] - corners_[c[0]]);
