@@ -104,7 +104,7 @@ void find_outliers(const FitTask& task, const FitOptions& smooth, FollowedCloud&
 /// goes on. Few rounds of both tell where one is clearly better.
 FitAttempt better_attempt(const FitTask& task, const FollowedCloud& points, Attempt& sharp, const Progress& progress) {
   constexpr int kFewRounds = 8;
-  constexpr double kClearly = 1.1;
+  constexpr double kClearly = 1.3;
   constexpr double kEarned = 1.1;  // creases that gain less are chance
   const FitOptions& options = task.options;
   FitOptions smooth_options = options;

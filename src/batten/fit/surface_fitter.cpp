@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -173,7 +174,36 @@ Values kept_sound(FitLevel& level, const Values& control, const Values& step, So
   return control;
 }
 
-/// Smooth inner control points that are held, moved along the surface towards the mean of their neighbours.
+/// Where a control point inside the surface relaxes to: the mean of its neighbours, on a sharp line that of the two on
+/// the line. None at the ends and crossings of lines.
+struct RelaxedPlace {
+  Eigen::RowVector3d mean = Eigen::RowVector3d::Zero();
+  Eigen::RowVector3d line = Eigen::RowVector3d::Zero();  ///< from one of the two on the line to the other
+  bool on_line = false;
+};
+std::optional<RelaxedPlace> relaxed_place(const Topology& topology, const Values& control, Index v) {
+  if (topology.is_boundary_vertex(v) || topology.vertex_sharpness(v) > 0.0F) return std::nullopt;
+  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+  Eigen::RowVector3d sharp_sum = Eigen::RowVector3d::Zero();
+  RelaxedPlace result;
+  Index count = 0;
+  Index sharp = 0;
+  topology.for_each_outgoing(v, [&](Index h) {
+    const Eigen::RowVector3d neighbour = control.row(topology.destination(h));
+    sum += neighbour;
+    ++count;
+    if (!(topology.edge_sharpness(topology.edge(h)) > 0.0F)) return;
+    sharp_sum += neighbour;
+    result.line = neighbour - result.line;
+    ++sharp;
+  });
+  if (sharp != 0 && sharp != 2) return std::nullopt;
+  result.on_line = sharp == 2;
+  result.mean = result.on_line ? Eigen::RowVector3d(sharp_sum / 2.0) : Eigen::RowVector3d(sum / count);
+  return result;
+}
+
+/// Inner control points that are held, moved along the surface, or along their sharp line, towards where they relax to.
 Values relaxed_along(const FitLevel& level, const Scheme& scheme, Values control) {
   constexpr int kSweeps = 2;
   constexpr double kPart = 0.5;
@@ -182,18 +212,15 @@ Values relaxed_along(const FitLevel& level, const Scheme& scheme, Values control
     const Values before = control;
     const Values normals = limit_normals(topology, scheme, before).vertices;
     for (Index v = 0; v < topology.vertex_count(); ++v) {
-      if (level.held[v] == 0 || topology.is_boundary_vertex(v) || topology.vertex_sharpness(v) > 0.0F) continue;
-      Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-      Index count = 0;
-      bool sharp = false;
-      topology.for_each_outgoing(v, [&](Index h) {
-        sum += before.row(topology.destination(h));
-        sharp = sharp || topology.edge_sharpness(topology.edge(h)) > 0.0F;
-        ++count;
-      });
-      if (sharp) continue;
-      const Eigen::RowVector3d move = kPart * (sum / count - before.row(v));
-      control.row(v) += move - move.dot(normals.row(v)) * normals.row(v);
+      if (level.held[v] == 0) continue;
+      const std::optional<RelaxedPlace> place = relaxed_place(topology, before, v);
+      if (!place) continue;
+      const Eigen::RowVector3d move = kPart * (place->mean - before.row(v));
+      if (!place->on_line) {
+        control.row(v) += move - move.dot(normals.row(v)) * normals.row(v);
+      } else if (place->line.squaredNorm() > 0.0) {
+        control.row(v) += move.dot(place->line) / place->line.squaredNorm() * place->line;
+      }
     }
   }
   return control;
