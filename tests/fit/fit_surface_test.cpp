@@ -319,7 +319,7 @@ void expect_surfaces_kept(const Points& points, const FitOptions& options, int s
 TEST(FitSurface, KeepsTheLastWholeRoundWhenCancelled) {
   FitOptions options = quick(100);
   options.start = FitStart::Sphere;
-  expect_surfaces_kept(CloudMaker().sphere(300), options, 3);
+  expect_surfaces_kept(CloudMaker().sphere(300), options, 17);
 }
 
 /// Between rounds that look for outliers and those of the fit, too.

@@ -1,11 +1,13 @@
 #include "batten/fit/fit_beginning.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "batten/fit/first_mesh.h"
 #include "batten/fit/fit_levels.h"
 #include "batten/fit/loop_moves.h"
+#include "batten/fit/mapped_sphere.h"
 #include "batten/fit/start_sphere.h"
 
 namespace batten {
@@ -38,7 +40,15 @@ FitBeginning find_beginning(const PointCloud& cloud, double spacing, const FitOp
     }
     return {std::move(mesh), false};
   }
-  if (options.start == FitStart::Sphere) return {start_sphere(cloud.points, options.scheme.kind), false};
+  if (options.start == FitStart::Sphere) {
+    // Springs come from the plain sphere, as in the paper; a tolerance may need fewer control points than allowed.
+    const bool maps = options.method == FitMethod::SquaredDistance && !(options.tolerance > 0.0);
+    std::optional<Mesh> mapped;
+    if (maps && loop == LoopStart::Moved)
+      mapped = mapped_sphere(cloud, options.scheme.kind, options.vertices.value_or(kUsualFitVertices), progress);
+    if (mapped) return {std::move(*mapped), true};
+    return {start_sphere(cloud.points, options.scheme.kind), false};
+  }
   constexpr Index kLeast = 50;
   constexpr Eigen::Index kOfFirstVertex = 4;
   // Loop surfaces come from finer ones by moves, which take about three milliseconds for a control point.

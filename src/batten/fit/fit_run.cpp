@@ -133,10 +133,10 @@ Index FitRun::next_count() const { return refined_vertex_count(fitter_.topology(
 /// What follows the first rounds of a control mesh. On the way to the points the surface may pass through itself: held
 /// back from that it would often stay where it is. Rounds that start from the best whole surface then keep it so.
 void FitRun::finish_level(bool last, const Progress& progress) {
+  mend();
   if (settled_) {
     return_to_best();
   } else {
-    mend();
     if (return_to_best() && last && report_.end != FitEnd::Tolerance) {
       go_rounds(Soundness::Whole, progress_within(progress, 0.0, 0.4));
       return_to_best();

@@ -14,8 +14,10 @@ namespace batten {
 
 /// What a fit starts from where no control mesh is given.
 enum class FitStart {
-  Auto,   ///< a mesh of the right genus over the points (fit/first_mesh.h)
-  Sphere  ///< an ellipsoid around the points (fit/start_sphere.h)
+  Auto,  ///< a mesh of the right genus over the points (fit/first_mesh.h)
+  /// the control mesh of a sphere, laid over the points where they give one closed surface without handles
+  /// (fit/mapped_sphere.h), otherwise, for springs, and with a tolerance an ellipsoid around them (fit/start_sphere.h)
+  Sphere
 };
 
 /// How the surface is moved.

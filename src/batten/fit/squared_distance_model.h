@@ -18,6 +18,10 @@ inline Eigen::Vector3d multiply(const Form& form, const Eigen::Vector3d& x) {
           form[2] * x[0] + form[4] * x[1] + form[5] * x[2]};
 }
 
+inline void scale(double factor, Form& form) {
+  for (double& number : form) number *= factor;
+}
+
 /// M of the model (offset - x)^T M (offset - x), where x is how far the foot point moves and `offset` leads from it to
 /// the point. M is 1 along the normal and |d| / (|d| + r) along the principal direction of radius r, at the distance
 /// d: point distance far away, tangent distance nearby, never negative (Wang, Pottmann and Liu 2006, key WPL06; Cheng

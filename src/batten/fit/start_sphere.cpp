@@ -6,6 +6,7 @@
 #include "batten/error.h"
 #include "batten/mesh/primitives.h"
 #include "batten/mesh/topology.h"
+#include "batten/refine/refined_values.h"
 #include "batten/refine/refinement.h"
 
 namespace batten {
@@ -32,13 +33,20 @@ Eigen::Matrix3d principal_axes(ConstValuesRef points) {
 
 }  // namespace
 
-Mesh start_sphere(ConstValuesRef points, SchemeKind kind) {
+Mesh unit_sphere(SchemeKind kind, Index vertices) {
   Scheme scheme;
   scheme.kind = kind;
   const Mesh solid = kind == SchemeKind::CatmullClark ? cube() : octahedron();
-  const RefinedSurface refined = refine(Topology(solid), scheme, solid.points, 2);
-  Points directions = refined.values;
-  directions.rowwise().normalize();
+  RefinedSurface refined = refine(Topology(solid), scheme, solid.points, 2);
+  while (refined_vertex_count(refined.topology, kind) <= vertices)
+    refined = refine(refined.topology, scheme, refined.values, 1);
+  Mesh mesh = mesh_from_topology(refined.topology);
+  mesh.points = refined.values;
+  mesh.points.rowwise().normalize();
+  return mesh;
+}
+
+PointEllipsoid ellipsoid_around(ConstValuesRef points) {
   const Eigen::Matrix3d axes = principal_axes(points);
   const Points along = points * axes;
   const Eigen::RowVector3d low = along.colwise().minCoeff();
@@ -48,9 +56,14 @@ Mesh start_sphere(ConstValuesRef points, SchemeKind kind) {
   if (!(half[1] > kOnLine * half[2]))
     throw Error(ErrorCode::BadArgument, "the points are on one line: a sphere around them has no surface to move");
   half = half.cwiseMax(kLeastAxis * half.maxCoeff());
-  Mesh mesh = mesh_from_topology(refined.topology);
-  const Points placed = directions * half.asDiagonal();
-  mesh.points = (placed.rowwise() + 0.5 * (low + high)) * axes.transpose();
+  return {axes, 0.5 * (low + high), half};
+}
+
+Mesh start_sphere(ConstValuesRef points, SchemeKind kind) {
+  const PointEllipsoid around = ellipsoid_around(points);
+  Mesh mesh = unit_sphere(kind);
+  const Points placed = mesh.points * around.half.asDiagonal();
+  mesh.points = (placed.rowwise() + around.middle) * around.axes.transpose();
   return mesh;
 }
 

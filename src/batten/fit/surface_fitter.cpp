@@ -239,10 +239,6 @@ struct Pulls {
   }
 };
 
-void scale(double factor, Form& form) {
-  for (double& number : form) number *= factor;
-}
-
 bool are_opposed(const Jet& jet, const PointCloud& cloud, Eigen::Index point) {
   return jet.du.cross(jet.dv).dot(cloud.normals.row(point).transpose()) < 0.0;
 }
