@@ -61,7 +61,10 @@ TEST_F(Files, AnOutputThatASceneReadsIsRefused) {
 
 TEST_F(Files, AnEmptyMeshIsNotWrittenAsARepairedOne) {
   write("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 2\n");
-  expect_refused("repair line.obj -o none.obj", "no face is left of 1", 1);
+  const std::string found = "no face is left of 1, and nothing was written; none has three different vertices: ";
+  expect_refused("repair line.obj -o none.obj", found + "batten convert writes the points alone as .xyz", 1);
+  write("small.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  expect_refused("repair small.obj --weld 1 -o none.obj", found + "weld less (--weld) or nothing (--no-weld)\n", 1);
   EXPECT_FALSE(fs::exists(path("none.obj")));
   expect_refused("convert mesh.obj -o ''", "name is empty", 1);
 }
