@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "batten/mesh/component_volumes.h"
@@ -46,6 +47,10 @@ std::map<std::string, std::vector<std::string>> group_names(const Mesh& mesh) {
   return names;
 }
 
+std::string held_text(double number) {
+  return std::isfinite(number) ? fmt::format("{:g}", number) : "too large for doubles; scale the mesh down";
+}
+
 }  // namespace
 
 void describe_box(const Mesh& mesh, Table& table, Json& json) {
@@ -61,9 +66,9 @@ void describe_sizes(const Topology& topology, const Components& components, cons
   const EdgeLengths lengths = edge_lengths(topology, points);
   const double area = surface_area(topology, points);
   const ComponentVolumes volumes = component_volumes(topology, points, components);
-  table.add("area", fmt::format("{:g}", area));
+  table.add("area", held_text(area));
   if (volumes.closed_count() > 0) {
-    table.add("volume", fmt::format("{:g}, of {}", volumes.sum(),
+    table.add("volume", fmt::format("{}, of {}", held_text(volumes.sum()),
                                     count_of(volumes.closed_count(), "closed component", "closed components")));
   }
   table.add("edge lengths", fmt::format("{:g} to {:g}, mean {:g}", lengths.shortest, lengths.longest, lengths.mean));

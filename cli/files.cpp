@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <utility>
 
 #include "batten/error.h"
@@ -15,9 +16,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// CLI11 keeps a type name with each option, which tells the two kinds of files from all other arguments. The help
+/// CLI11 keeps a type name with each option, which tells the kinds of files from all other arguments. The help
 /// shows it where an option has no text of its own.
 constexpr const char* kInputType = "FILE";
+constexpr const char* kVolumeType = "VOLUME";
 constexpr const char* kOutputType = "OUTPUT FILE";
 
 struct FileOption {
@@ -52,6 +54,17 @@ void refuse_folders(const std::vector<FileOption>& files, ErrorCode code, const 
   }
 }
 
+/// Refuses an input that is NAME-000 of `output`, or one of the next, so many in all.
+void refuse_numbered(const std::string& output, const std::string& input, int count) {
+  std::error_code error;
+  const std::string stem = fs::canonical(input, error).stem().string();
+  const std::size_t digits = stem.find_last_not_of("0123456789") + 1;
+  if (error || digits == stem.size() || stem.size() - digits > 6) return;
+  const int number = std::stoi(stem.substr(digits));
+  if (number >= count || !same_file(numbered(output, static_cast<std::size_t>(number)), input)) return;
+  throw UsageError("--output: '" + input + "' is a file to read, which a frame would replace; choose another name");
+}
+
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
@@ -80,6 +93,10 @@ CLI::Option* add_input_file(CLI::App& verb, const std::string& name, std::string
   return verb.add_option(name, target, help)->type_name(kInputType);
 }
 
+CLI::Option* add_input_volume(CLI::App& verb, const std::string& name, std::string& target, const std::string& help) {
+  return verb.add_option(name, target, help)->type_name(kVolumeType)->option_text(kVolumeType);
+}
+
 CLI::Option* add_output_file(CLI::App& verb, const std::string& name, std::string& target, const std::string& help,
                              const std::vector<std::string>& extensions) {
   CLI::Option* option = verb.add_option(name, target, help)->type_name(kOutputType);
@@ -90,9 +107,11 @@ CLI::Option* add_output_file(CLI::App& verb, const std::string& name, std::strin
 }
 
 void check_files(const CLI::App& verb, CommonArguments& common) {
-  const std::vector<FileOption> inputs = given_files(verb, kInputType);
+  std::vector<FileOption> inputs = given_files(verb, kInputType);
   const std::vector<FileOption> outputs = given_files(verb, kOutputType);
   refuse_folders(inputs, ErrorCode::FileNotReadable, "read");
+  const std::vector<FileOption> volumes = given_files(verb, kVolumeType);
+  inputs.insert(inputs.end(), volumes.begin(), volumes.end());
   refuse_folders(outputs, ErrorCode::FileNotWritable, "written");
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     const FileOption& output = outputs[i];
@@ -113,15 +132,17 @@ void check_files(const CLI::App& verb, CommonArguments& common) {
 }
 
 void check_numbered_files(const CLI::App& verb, const std::string& output, int count) {
-  for (const FileOption& input : given_files(verb, kInputType)) {
-    std::error_code error;
-    const std::string stem = fs::canonical(input.path, error).stem().string();
-    const std::size_t digits = stem.find_last_not_of("0123456789") + 1;
-    if (error || digits == stem.size() || stem.size() - digits > 6) continue;
-    const int number = std::stoi(stem.substr(digits));
-    if (number >= count || !same_file(numbered(output, static_cast<std::size_t>(number)), input.path)) continue;
-    throw UsageError("--output: '" + input.path +
-                     "' is a file to read, which a frame would replace; choose another name");
+  for (const FileOption& input : given_files(verb, kInputType)) refuse_numbered(output, input.path, count);
+}
+
+void require_others(const std::vector<std::string>& outputs, const std::vector<std::string>& read, bool numbers) {
+  for (const std::string& output : outputs) {
+    for (const std::string& input : read) {
+      if (output.empty() || input.empty()) continue;
+      if (same_file(system_name(output, "/dev/stdout"), input))
+        throw UsageError("'" + output + "' is a file to read, which would be replaced; name another one");
+      if (numbers) refuse_numbered(output, input, std::numeric_limits<int>::max());
+    }
   }
 }
 

@@ -24,6 +24,9 @@ FitOptions options_of(const FitArguments& arguments, const Mesh& points, Job& jo
   if (arguments.init == kInitSphere) options.start = FitStart::Sphere;
   if (arguments.init != kInitAuto && arguments.init != kInitSphere) {
     options.initial = read_file(arguments.init, "", arguments.common.quiet, &job.notes);
+    if (options.initial->face_count() == 0)
+      throw Error(ErrorCode::BadArgument,
+                  arguments.init + ": there are no faces, only points; --init is a control mesh");
     try {
       Topology(*options.initial);
     } catch (const Error& error) {

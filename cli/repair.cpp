@@ -10,6 +10,20 @@
 #include "cli/text.h"
 
 namespace batten::cli {
+namespace {
+
+/// What is wrong with all faces, and what can be done with their points.
+[[noreturn]] void refuse_nothing(const RepairArguments& arguments, const Mesh& mesh) {
+  const std::string way_out = arguments.options.weld > 0.0
+                                  ? "weld less (--weld) or nothing (--no-weld)"
+                                  : "batten convert writes the points alone as .xyz, and batten fit draws a surface to "
+                                    "four or more of them";
+  throw Error(ErrorCode::BadArgument,
+              fmt::format("{}: no face is left of {}, and nothing was written; none has three different vertices: {}",
+                          arguments.common.input, mesh.face_count(), way_out));
+}
+
+}  // namespace
 
 int run_repair(const RepairArguments& arguments) {
   const CommonArguments& common = arguments.common;
@@ -20,10 +34,7 @@ int run_repair(const RepairArguments& arguments) {
   stages.finish("read");
   const RepairResult repaired = repair(mesh, arguments.options, ProgressBar("repairing", common.quiet).callback());
   stages.finish("repair");
-  if (mesh.face_count() > 0 && repaired.mesh.face_count() == 0)
-    throw Error(ErrorCode::DegenerateFace,
-                fmt::format("{}: no face is left of {}, and nothing was written; none has three different vertices",
-                            common.input, mesh.face_count()));
+  if (mesh.face_count() > 0 && repaired.mesh.face_count() == 0) refuse_nothing(arguments, mesh);
   write_output(common, repaired.mesh, up_axis_for(common, mesh));
   const std::vector<std::string> lost = tell_losses(common, repaired.mesh);
   stages.finish("write");

@@ -9,9 +9,8 @@ namespace {
 
 /// What the surface starts from, and what draws it.
 void add_starts(CLI::App& verb, SegmentArguments& arguments) {
-  verb.add_option("--mask", arguments.mask,
-                  "the volume of labels, on a grid of its own; the image itself, if not given")
-      ->option_text("VOLUME");
+  add_input_volume(verb, "--mask", arguments.mask,
+                   "the volume of labels, on a grid of its own; the image itself, if not given");
   verb.add_option("--label", arguments.labels, "the label, or several as one: 71,72; all numbers but 0, if not given")
       ->delimiter(',')
       ->check(number_in(-1e9, 1e9))
@@ -57,10 +56,9 @@ void add_segment(CLI::App& app, SegmentArguments& arguments, int& status) {
   CLI::App& verb = *app.add_subcommand(
       "segment",
       "from a label of a volume, or points on a part of it or a seed in it, to a small, smooth control mesh");
-  verb.add_option("VOLUME", arguments.common.input,
-                  "the image: .nii .nii.gz .nrrd .nhdr .mha .mhd, or a folder of DICOM slices")
-      ->required()
-      ->option_text("VOLUME");
+  add_input_volume(verb, "VOLUME", arguments.common.input,
+                   "the image: .nii .nii.gz .nrrd .nhdr .mha .mhd, or a folder of DICOM slices")
+      ->required();
   add_starts(verb, arguments);
   add_common(verb, arguments.common);
   add_output(verb, arguments.common);

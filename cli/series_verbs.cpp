@@ -249,7 +249,7 @@ void add_morph(CLI::App& app, MorphArguments& arguments, int& status) {
   verb.add_flag_callback(
       "--no-align", [&] { arguments.align = false; }, "with --rho: do not lay the centroids on each other first");
   verb.add_option("--seconds", arguments.seconds, "how long a .glb's animation is")
-      ->check(positive_number())
+      ->check(number_in(1e-3, 1e6))
       ->capture_default_str();
   verb.add_option("--levels", arguments.levels,
                   "refinement of a .glb's surface; 3 if not given, fewer for a large mesh")

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <string>
+#include <variant>
+#include <vector>
 
 #include "batten/error.h"
 #include "batten/io/io.h"
@@ -269,6 +272,15 @@ int run_motion(const SimulateArguments& arguments, ElasticRun& run, Table& table
   return 1;
 }
 
+/// The scene's own files.
+std::vector<std::string> files_of(const ElasticScene& scene) {
+  std::vector<std::string> files{scene.mesh, scene.start};
+  for (const auto& force : scene.forces) {
+    if (const auto* springs = std::get_if<SceneNearestSprings>(&force)) files.push_back(springs->file);
+  }
+  return files;
+}
+
 }  // namespace
 
 int run_simulate(const SimulateArguments& arguments) {
@@ -278,6 +290,8 @@ int run_simulate(const SimulateArguments& arguments) {
   std::vector<std::string> notes;
   const auto read = [&] {
     scene = read_scene(common.input);
+    require_others({common.output, arguments.state, arguments.plot, arguments.picture.path, common.report},
+                   files_of(scene), !arguments.equilibrium);
     meshes = read_scene_meshes(scene, ProgressBar("reading", common.quiet).callback(), &notes);
     CommonArguments mesh = common;
     mesh.input = scene.mesh;

@@ -1,5 +1,7 @@
 #include "studio/engine/arrays.h"
 
+#include <algorithm>
+
 namespace batten::studio {
 
 Points to_points(const val& numbers) {
@@ -9,9 +11,9 @@ Points to_points(const val& numbers) {
 }
 
 std::vector<float> to_floats(const Values& values) {
-  std::vector<float> floats;
-  floats.reserve(static_cast<std::size_t>(values.size()));
-  for (Eigen::Index i = 0; i < values.size(); ++i) floats.push_back(static_cast<float>(values.data()[i]));
+  std::vector<float> floats(static_cast<std::size_t>(values.size()));
+  std::transform(values.data(), values.data() + values.size(), floats.begin(),
+                 [](double number) { return static_cast<float>(number); });
   return floats;
 }
 

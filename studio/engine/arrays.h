@@ -24,6 +24,20 @@ val typed_array(const Container& numbers) {
   return typed_array(numbers.data(), static_cast<std::size_t>(numbers.size()));
 }
 
+/// The same in `room`, a typed array that the page has done with, where it has just as many numbers; otherwise, as
+/// where it is null, in one of its own: fresh memory, which a browser clears before it is written.
+template <typename Number>
+val typed_array_in(const val& room, const Number* numbers, std::size_t count) {
+  if (room.isNull() || room.isUndefined() || room["length"].as<std::size_t>() != count)
+    return typed_array(numbers, count);
+  room.call<void>("set", val(emscripten::typed_memory_view(count, numbers)));
+  return room;
+}
+template <typename Container>
+val typed_array_in(const val& room, const Container& numbers) {
+  return typed_array_in(room, numbers.data(), static_cast<std::size_t>(numbers.size()));
+}
+
 /// An array of JavaScript with what `make` gives for each element.
 template <typename Container, typename Make>
 val list(const Container& elements, const Make& make) {

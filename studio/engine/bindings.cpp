@@ -28,7 +28,7 @@ EMSCRIPTEN_BINDINGS(batten) {
       .function("shape", &Surface::shape)
       .function("change", &Surface::change)
       .function("move", &Surface::move)
-      .function("setControl", &Surface::set_control)
+      .function("follow", &Surface::follow)
       .function("limitPoints", &Surface::limit_points)
       .function("field", &Surface::field)
       .function("texture", &Surface::texture)

@@ -110,8 +110,6 @@ val Elastic::step(int count) {
     for (int i = 0; i < count; ++i) motion_->step(state_);
     val result = val::object();
     result.set("time", state_.time);
-    result.set("kinetic", body_->kinetic_energy(state_.velocities));
-    result.set("elastic", body_->energy(state_.positions));
     return result;
   });
 }
@@ -145,16 +143,16 @@ val Elastic::refine() {
   });
 }
 
-Points Elastic::outward() const { return (state_.positions * scale_).rowwise() + centre_; }
+Points Elastic::control_points() const { return (state_.positions * scale_).rowwise() + centre_; }
 
 val Elastic::control() const {
-  return guarded([&] { return typed_array(outward()); });
+  return guarded([&] { return typed_array(control_points()); });
 }
 
 val Elastic::control_file() const {
   return guarded([&] {
     Mesh mesh = mesh_;
-    mesh.points = outward();
+    mesh.points = control_points();
     state_scheme(scheme_, mesh);
     return val(std::make_shared<MeshFile>(std::move(mesh), up_));
   });

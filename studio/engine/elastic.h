@@ -29,20 +29,21 @@ class Elastic {
   val grab(double x, double y, double z, double stiffness);
   val pull(double x, double y, double z);
   val release();
-  /// So many steps of 1/60 s: {kinetic, elastic, time}.
+  /// So many steps of 1/60 s: {time}.
   val step(int count);
   /// Holds the place of the surface nearest to a point where it is now: {point}.
   val pin(double x, double y, double z);
   /// Goes on with the control mesh refined once: the same surface, which can bend more finely.
   val refine();
-  /// Control points, in the file's unit: doubles.
+  /// In the file's unit.
+  Points control_points() const;
+  /// The same as doubles.
   val control() const;
   /// The body as a control mesh with all that hung on it: a MeshFile.
   val control_file() const;
 
  private:
   void rebuild();
-  Points outward() const;
   Eigen::Vector3d inward(double x, double y, double z) const;
 
   Mesh mesh_;  ///< of the body's connectivity; its points are not those of now

@@ -153,7 +153,7 @@ val Surface::report() const {
 val Surface::drawing() {
   return guarded([&] {
     prepare();
-    val result = shape();
+    val result = shape(val::null());
     if (tessellator_) result.set("triangles", typed_array(triangles_of(*tessellator_)));
     std::vector<std::uint32_t> edges;
     std::vector<float> sharpness;
@@ -169,11 +169,15 @@ val Surface::drawing() {
   });
 }
 
-val Surface::shape() {
+val Surface::shape(const val& room) {
   return guarded([&] {
     prepare();
+    const bool is_fresh = room.isNull() || room.isUndefined();
+    const auto in_room = [&](const char* name, const std::vector<float>& numbers) {
+      return is_fresh ? typed_array(numbers) : typed_array_in(room[name], numbers);
+    };
     val result = val::object();
-    result.set("control", typed_array(to_floats(control_)));
+    result.set("control", in_room("control", to_floats(control_)));
     if (is_adaptive()) {
       adaptive_ = draw_adaptively(*patches_, control_, wishes_.chord);
       result.set("points", typed_array(adaptive_->points));
@@ -183,16 +187,16 @@ val Surface::shape() {
     }
     tessellator_->limit<float>(control_, points_, normals_);
     moved_.emplace();
-    result.set("points", typed_array(points_));
-    result.set("normals", typed_array(normals_));
+    result.set("points", in_room("points", points_));
+    result.set("normals", in_room("normals", normals_));
     return result;
   });
 }
 
-val Surface::change() {
+val Surface::change(const val& room) {
   return guarded([&] {
     prepare();
-    if (!moved_ || is_adaptive()) return shape();
+    if (!moved_ || is_adaptive()) return shape(room);
     std::vector<Index> moved = std::exchange(*moved_, {});
     std::sort(moved.begin(), moved.end());
     moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
@@ -254,12 +258,11 @@ val Surface::move(int vertex, double x, double y, double z, int rings) {
   });
 }
 
-val Surface::set_control(const val& points) {
+val Surface::follow(const Elastic& body) {
   return guarded([&] {
-    const Points control = to_points(points);
-    if (control.rows() != control_.rows())
-      throw Error(ErrorCode::BadShape, "a point for each control vertex is needed");
-    control_ = control;
+    Points control = body.control_points();
+    if (control.rows() != control_.rows()) throw Error(ErrorCode::BadShape, "the body is of another connectivity");
+    control_ = std::move(control);
     is_current_ = false;
     moved_.reset();
     return val::null();

@@ -10,6 +10,7 @@
 #include "batten/nearest/nearest_point.h"
 #include "batten/tessellate/tessellator.h"
 #include "studio/engine/adaptive_drawing.h"
+#include "studio/engine/elastic.h"
 #include "studio/engine/mesh_file.h"
 
 namespace batten::studio {
@@ -37,16 +38,17 @@ class Surface {
   /// {points, normals, triangles, control, edges, sharpness}: floats; edges as pairs of control vertices.
   val drawing();
   /// {points, normals, control} where the connectivity is that of the last drawing(); under a tolerance its triangles
-  /// are other ones, and are given too.
-  val shape();
+  /// are other ones, and are given too. room: the arrays of an earlier shape, which are filled again where they have
+  /// the sizes, or null.
+  val shape(const val& room);
   /// What moves changed since the last shape(), drawing() or change(): {vertices, points, normals, moved, control},
   /// where `points` and `normals` are those of the drawn `vertices` and `control` are the control points `moved`; or
-  /// shape(), where much changed.
-  val change();
+  /// shape(room), where much changed.
+  val change(const val& room);
   /// Moves point `vertex`; the surface follows. {moved, local, maxError}.
   val move(int vertex, double x, double y, double z, int rings);
-  /// Other control points for the same connectivity, as sculpting makes them.
-  val set_control(const val& points);
+  /// Takes the control points that an elastic body of the same connectivity has now.
+  val follow(const Elastic& body);
   /// Where the surface is at the vertices of the file's mesh.
   val limit_points() const;
   /// A number for each vertex drawn: {numbers, positions (0 to 1 on the bar, -1: none), scale}. word: error, moved,

@@ -381,9 +381,10 @@ export class App {
         continue;
       }
       if (!this.drawing) continue;
-      const moved = await this.engine.run((engine) => engine.move(drag.vertex, to, this.work?.settings.rings ?? 0));
-      this.lastMove = moved;
-      this.stage.reshape(moved);
+      this.lastMove = await this.engine.reshape<Moved>(
+        (engine, room) => engine.move(drag.vertex, to, this.work?.settings.rings ?? 0, room),
+        (moved) => this.stage.reshape(moved),
+      );
     }
   }
 

@@ -143,6 +143,73 @@ TEST_F(Failure, ALimitOnFilesLeavesTheOldFile) {
   }
 }
 
+/// A volume of 12 voxels a side with a ball in it, as MetaImage.
+std::string ball_volume() {
+  constexpr int kSize = 12;
+  std::string file = "NDims = 3\nDimSize = 12 12 12\nElementType = MET_UCHAR\nElementDataFile = LOCAL\n";
+  for (int i = 0; i < kSize * kSize * kSize; ++i) {
+    const double x = i % kSize - 5.5;
+    const double y = i / kSize % kSize - 5.5;
+    const double z = i / (kSize * kSize) - 5.5;
+    file += x * x + y * y + z * z < 16.0 ? '\1' : '\0';
+  }
+  return file;
+}
+
+/// Of each verb the options that write a file; the file's name is the last word.
+TEST_F(Failure, AFullDiskLeavesTheOldFileOfEveryVerb) {
+  const std::string models = BATTEN_SOURCE_DIR "/models/";
+  const std::string bean = models + "bean.srep.json";
+  write_mesh(path("in.obj"), torus(10, 8));
+  write("volume.mha", ball_volume());
+  write("scene.json", "{\"mesh\": \"" + models +
+                          "creature.obj\", \"material\": {\"density\": 1}, \"time\": {\"seconds\": "
+                          "0.02, \"step\": 0.01}}");
+  const std::vector<Words> commands{
+      {"convert", "in.obj", "-o", "out.ply"},
+      {"repair", "in.obj", "-o", "out.obj"},
+      {"info", "in.obj", "--report", "out.json"},
+      {"info", "in.obj", "--curvature", "-o", "out.ply"},
+      {"interpolate", "in.obj", "-o", "out.obj"},
+      {"interpolate", "in.obj", "--fair", "-o", "out.glb"},
+      {"interpolate", "in.obj", "--compare-methods", "--plot", "out.svg"},
+      {"subdivide", "in.obj", "--chord", "1%", "-o", "out.stl"},
+      {"render", "in.obj", "-o", "out.png"},
+      {"distance", "in.obj", "in.obj", "-o", "out.ply"},
+      {"distance", "in.obj", "in.obj", "--report", "out.json"},
+      {"texture", "in.obj", "-o", "out.ply"},
+      {"denoise", "in.obj", "-o", "out.obj"},
+      {"sharpen", "in.obj", "-o", "out.obj"},
+      {"bands", "in.obj", "-o", "out.obj"},
+      {"bands", "in.obj", "--plot", "out.png"},
+      {"morph", "in.obj", "in.obj", "--at", "0.5", "-o", "out.obj"},
+      {"morph", "in.obj", "in.obj", "-o", "out.glb"},
+      {"simulate", "scene.json", "-o", "out.glb"},
+      {"simulate", "scene.json", "--state", "out.state"},
+      {"simulate", "scene.json", "--plot", "out.svg"},
+      {"fit", "in.obj", "--init", "sphere", "--vertices", "98", "--rounds", "1", "-o", "out.obj"},
+      {"fit", "in.obj", "--init", "sphere", "--vertices", "98", "--rounds", "1", "--residuals", "out.ply"},
+      {"fit", "in.obj", "--init", "sphere", "--vertices", "98", "--rounds", "1", "--film", "out.glb"},
+      {"segment", "volume.mha", "--vertices", "26", "-o", "out.obj"},
+      {"segment", "volume.mha", "--vertices", "26", "--overlay", "out.png"},
+      {"medial", bean, "-o", "out.obj"},
+      {"medial", bean, "--sheet", "out.obj"},
+      {"medial", bean, "--model", "out.json"},
+  };
+  const auto limit = [] {
+    const rlimit bytes{512, 512};  // and a message has room
+    ::setrlimit(RLIMIT_FSIZE, &bytes);
+  };
+  for (Words words : commands) {
+    const std::string out = words.back();
+    SCOPED_TRACE(words.front() + " " + words[words.size() - 2] + " " + out);
+    write(out, kPrecious);
+    words.push_back("--quiet");
+    expect_failure(words, out + ": cannot be written: File too large", limit);
+    fs::remove(path(out));
+  }
+}
+
 TEST_F(Failure, AClosedPipeIsAnError) {
   write_mesh(path("in.ply"), torus(40, 30));
   const auto close_reader = [] {
@@ -188,6 +255,47 @@ TEST_F(Failure, AStopWhileWritingLeavesTheOldFile) {
     EXPECT_EQ(errors, "batten: interrupted; unfinished files are as they were\n");
     EXPECT_TRUE(contents() == before);
   }
+}
+
+/// Each is at work for some tenths of a second when the signal comes; one that has already ended has ended well.
+TEST_F(Failure, AStopWhileWorkingLeavesTheOldFileOfEveryVerb) {
+  write_mesh(path("in.ply"), torus(200, 120));
+  const std::vector<Words> commands{
+      {"interpolate", "in.ply", "--fair"},
+      {"interpolate", "in.ply", "--normals", "estimate"},
+      {"subdivide", "in.ply", "--levels", "4"},
+      {"subdivide", "in.ply", "--chord", "0.0001%"},
+      {"render", "in.ply"},
+      {"distance", "in.ply", "in.ply"},
+      {"denoise", "in.ply", "--passes", "4000"},
+      {"sharpen", "in.ply"},
+      {"bands", "in.ply", "--gains", "1,1,1,1,1,1,1"},
+      {"morph", "in.ply", "in.ply", "--resample", "--at", "0.5"},
+      {"simulate", BATTEN_SOURCE_DIR "/models/balloon.scene.json", "--equilibrium"},
+      {"fit", "in.ply"},
+      {"repair", "in.ply"},
+      {"info", "in.ply", "--curvature"},
+  };
+  int met = 0;
+  for (Words words : commands) {
+    SCOPED_TRACE(words.front());
+    const std::string out = words.front() == "render" ? "out.png" : "out.ply";
+    write(out, kPrecious);
+    const auto before = contents();
+    words.insert(words.end(), {"-o", out});
+    Process tool(folder_, words);
+    while (tool.is_running() && !tool.handles(SIGINT)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    tool.send(SIGINT);
+    if (tool.wait() == 0) continue;
+    ++met;
+    EXPECT_EQ(tool.wait(), 1);
+    const std::string errors = tool.errors();
+    const std::string last = "batten: interrupted; unfinished files are as they were\n";
+    EXPECT_TRUE(errors.size() >= last.size() && errors.substr(errors.size() - last.size()) == last) << errors;
+    EXPECT_TRUE(contents() == before);
+  }
+  EXPECT_GT(met, 0);
 }
 
 TEST_F(Failure, AStopWhileWaitingForInputEndsTheWait) {

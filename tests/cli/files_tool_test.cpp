@@ -44,11 +44,27 @@ TEST_F(Files, AnOutputThatIsAnInputIsRefused) {
   write("scan.ply", "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nend_header\n");
   expect_refused("distance scan.ply mesh.obj -o scan.ply", why);
   expect_refused("convert - --input-format obj -o mesh.obj < mesh.obj", why);
+  write("scan.nii", "kept");
+  expect_refused("segment scan.nii --inside scan.nii", why);
+  expect_refused("segment other.nii --mask scan.nii --inside ./scan.nii", why);
+  EXPECT_EQ(text_of(path("scan.nii")), "kept");
+}
+
+TEST_F(Files, AnOutputThatASceneReadsIsRefused) {
+  write("scene.json", "{\"mesh\": \"mesh.obj\", \"time\": {\"seconds\": 0.1}}");
+  const std::string why = "is a file to read";
+  expect_refused("simulate scene.json --equilibrium -o mesh.obj", why);
+  expect_refused("simulate scene.json --state ./mesh.obj", why);
+  write("frames.json", "{\"mesh\": \"mesh-001.obj\", \"time\": {\"seconds\": 0.1}}");
+  expect_refused("simulate frames.json -o mesh.obj", why);
 }
 
 TEST_F(Files, AnEmptyMeshIsNotWrittenAsARepairedOne) {
   write("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 2\n");
-  expect_refused("repair line.obj -o none.obj", "no face is left of 1", 1);
+  const std::string found = "no face is left of 1, and nothing was written; none has three different vertices: ";
+  expect_refused("repair line.obj -o none.obj", found + "batten convert writes the points alone as .xyz", 1);
+  write("small.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  expect_refused("repair small.obj --weld 1 -o none.obj", found + "weld less (--weld) or nothing (--no-weld)\n", 1);
   EXPECT_FALSE(fs::exists(path("none.obj")));
   expect_refused("convert mesh.obj -o ''", "name is empty", 1);
 }

@@ -154,6 +154,13 @@ TEST_F(FitTool, RefusesPointsAndStartsWithoutASurface) {
   };
   refused("line.xyz --init sphere", "on one line");
   refused("large.xyz", "too large or too small for doubles; scale the points");
+  std::string plane;
+  for (int i = 0; i < 400; ++i) plane += std::to_string(i % 20) + " " + std::to_string(i / 20) + " 3\n";
+  write("plane.xyz", plane);
+  refused("plane.xyz --init sphere --method dynamic", "in one plane");
+  write("far.obj", "v 1e6 0 0\nv 1e6 9 0\nv 1e6 9 9\nv 1e6 0 9\nf 1 2 3 4\n");
+  refused("plane.xyz --init line.xyz", "line.xyz: there are no faces, only points");
+  refused("plane.xyz --init far.obj", "lies 999981 away from the points, farther than either is large");
   refused("line.xyz --init point.obj", "all vertices of the control mesh to start from are at the same place");
 }
 

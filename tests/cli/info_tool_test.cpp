@@ -34,6 +34,16 @@ TEST_F(Tool, InfoTellsSizesValuesAndGroups) {
   EXPECT_EQ(report["attributes"].size(), 2U);
 }
 
+TEST_F(Tool, InfoTellsLengthsWhoseSquaresDoublesCannotHold) {
+  write("huge.obj", "v 0 0 0\nv 3e200 0 0\nv 0 4e200 0\nf 1 2 3\n");
+  const Outcome result = run("info huge.obj");
+  ASSERT_EQ(result.status, 0) << result.err;
+  for (const char* row : {"3e+200 to 5e+200, mean 4e+200\n", "too large for doubles; scale the mesh down\n"})
+    EXPECT_NE(result.out.find(row), std::string::npos) << row << result.out;
+  EXPECT_EQ(result.out.find("inf "), std::string::npos) << result.out;
+  EXPECT_EQ(run("morph huge.obj huge.obj --seconds 1e300 -o film.glb").status, 2);
+}
+
 TEST_F(Tool, InfoTellsNoVolumeOfAnOpenMesh) {
   const Outcome result = run("info " + kModels + "pipe-joint.obj --report r.json");
   EXPECT_EQ(result.out.find("volume"), std::string::npos) << result.out;

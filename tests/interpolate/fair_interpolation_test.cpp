@@ -400,7 +400,8 @@ TEST(FairInterpolation, RefusesWhatHasNoMeaning) {
   };
   EXPECT_EQ(code([](FairOptions& o) { o.levels = 3; }), ErrorCode::BadArgument);
   EXPECT_EQ(code([](FairOptions& o) { o.rounds = 0; }), ErrorCode::BadArgument);
-  EXPECT_EQ(code([](FairOptions& o) { o.smoothing = -1.0; }), ErrorCode::BadArgument);
+  for (const double length : {-1.0, 6.0, 1e300})
+    EXPECT_EQ(code([=](FairOptions& o) { o.smoothing = length; }), ErrorCode::BadArgument) << length;
   EXPECT_EQ(code([](FairOptions& o) { o.normals = Values::Ones(3, 3); }), ErrorCode::BadShape);
   EXPECT_EQ(code([](FairOptions& o) {
               o.normals = Values::Ones(12, 3);

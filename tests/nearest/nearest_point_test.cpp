@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ctime>
 #include <limits>
 #include <random>
 
@@ -48,6 +49,24 @@ TEST(NearestPoint, FacesOfHolesAndLooseBoundariesAreNoPartOfTheSurface) {
   mesh = test::jittered(test::without_face(dodecahedron(), 2), 0.05, 5);
   mesh.holes = {4};
   expect_nearest(mesh, Scheme(), 4, random_queries(mesh, 60, 5));
+}
+
+/// All cells are equally near: a search that looked at each would take 4 ms here, 8 s for all queries.
+TEST(NearestPoint, ASurfaceThatIsAPointAnswersAtOnce) {
+  Mesh mesh = torus(60, 40);
+  const Points queries = random_queries(mesh, 2000, 6);
+  const Eigen::RowVector3d place(1.0, 2.0, 3.0);
+  mesh.points.rowwise() = place;
+  const NearestPoints nearest(Topology(mesh), Scheme(), mesh.points);
+  std::vector<NearestPoint> found(2000);
+  const std::clock_t begin = std::clock();
+  nearest.nearest(queries, found);
+  EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 1.0);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const double distance = (queries.row(static_cast<Eigen::Index>(i)) - place).norm();
+    EXPECT_NEAR(found[i].distance, distance, nearest.tolerance());
+    EXPECT_NEAR(found[i].least_distance, distance, nearest.tolerance());
+  }
 }
 
 /// The plan's 10 M samples, on a model of the project.

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <utility>
 
 #include "batten/error.h"
 #include "support/errors.h"
@@ -121,6 +122,13 @@ TEST_F(VolumeFile, RefusesWhatIsNoVolume) {
     std::memcpy(&broken[at], &number, sizeof number);
     write("nan.nii", broken);
     expect_refused("nan.nii", ErrorCode::BadFile, "number at byte " + std::to_string(at));
+  }
+  // An axis of other length than the voxels', and one that leans.
+  for (const auto& [at, number] : {std::pair<std::size_t, float>{280, 1e6F}, {284, 0.5F}}) {
+    std::string broken = nifti({3, 2, 3, 4, 1}, 24);
+    std::memcpy(&broken[at], &number, sizeof number);
+    write("axes.nii", broken);
+    expect_refused("axes.nii", ErrorCode::BadFile, "cannot be read: the axes in its header (sform) are not at right");
   }
   write("text.nii", "no volume at all");
   expect_refused("text.nii", ErrorCode::BadFile, "");

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "batten/error.h"
 #include "batten/expand/strength.h"
@@ -10,7 +11,8 @@
 namespace batten {
 
 std::vector<Band> octave_bands(SchemeKind kind, SeriesMatrix matrix, int count) {
-  if (count < 2 || count > 12) throw Error(ErrorCode::BadArgument, "there may be 2 to 12 bands");
+  if (count < 2 || count > 12)
+    throw Error(ErrorCode::BadArgument, "there are 2 to 12 bands, each with a gain, not " + std::to_string(count));
   std::vector<Band> bands;
   double shortest = 2.0;
   for (int j = 0; j + 1 < count; ++j) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,11 +17,26 @@
 #include "batten/fit/surface_fitter.h"
 #include "batten/fit/thin_cloud.h"
 #include "batten/mesh/checked_values.h"
+#include "batten/mesh/measures.h"
 #include "batten/solve/solver.h"
 
 namespace batten {
 
 namespace {
+
+/// From a mesh that lies apart from the points by more than either is large, all points are nearest to the same few
+/// places, and the surface would be torn to them.
+void require_start_near(const Points& start, const Points& points) {
+  const BoundingBox there = bounding_box(start);
+  const BoundingBox here = bounding_box(points);
+  const Eigen::RowVector3d gaps = (there.low - here.high).cwiseMax(here.low - there.high).cwiseMax(0.0);
+  const double gap = gaps.stableNorm();
+  if (!(gap > std::max((there.high - there.low).stableNorm(), (here.high - here.low).stableNorm()))) return;
+  std::ostringstream text;
+  text << "the control mesh to start from lies " << gap
+       << " away from the points, farther than either is large: move it to them";
+  throw Error(ErrorCode::BadArgument, text.str());
+}
 
 void require_options(const PointCloud& cloud, const FitOptions& options) {
   require_finite(cloud.points, "points");
@@ -38,6 +54,7 @@ void require_options(const PointCloud& cloud, const FitOptions& options) {
   if (cloud.points.rows() < 4)
     throw Error(ErrorCode::BadArgument,
                 "a fit needs four points or more; there are " + std::to_string(cloud.points.rows()));
+  if (options.initial) require_start_near(options.initial->points, cloud.points);
 }
 
 /// The points that the rounds work with: in the order of their coordinates, so that the order in which they are given

@@ -66,8 +66,9 @@ struct FitResult {
 /// the distances; when nothing is gained, refine. The points' normals are estimated where there are none. The result
 /// depends on the input alone. When the callback asks to stop after the first round, the surface of the last whole
 /// round is returned.
-/// Throws Error: BadShape, NotFinite, BadArgument (no points, all at one place or on a line; options out of range),
-/// NotTriangles, Cancelled (before the first round), and what first_mesh() throws.
+/// Throws Error: BadShape, NotFinite, BadArgument (no points, all at one place or on a line, or in a plane with a
+/// sphere to start from; a mesh to start from that lies far from the points; options out of range), NotTriangles,
+/// Cancelled (before the first round), and what first_mesh() throws.
 FitResult fit_surface(const PointCloud& cloud, const FitOptions& options = {}, const Progress& progress = {});
 
 }  // namespace batten

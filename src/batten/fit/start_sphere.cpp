@@ -15,8 +15,8 @@ namespace {
 
 /// Of the longest half axis.
 constexpr double kLeastAxis = 0.01;
-/// Points that are not farther from a line than this, of half its length, are on it.
-constexpr double kOnLine = 1e-9;
+/// Points that are not farther from a line or a plane than this, of half their length, are on it.
+constexpr double kOnIt = 1e-9;
 
 /// The principal axes of points around their mean, in columns, right-handed.
 Eigen::Matrix3d principal_axes(ConstValuesRef points) {
@@ -53,8 +53,12 @@ PointEllipsoid ellipsoid_around(ConstValuesRef points) {
   const Eigen::RowVector3d high = along.colwise().maxCoeff();
   Eigen::RowVector3d half = 0.5 * (high - low);
   // Ascending, as the axes are.
-  if (!(half[1] > kOnLine * half[2]))
+  if (!(half[1] > kOnIt * half[2]))
     throw Error(ErrorCode::BadArgument, "the points are on one line: a sphere around them has no surface to move");
+  if (!(half[0] > kOnIt * half[2]))
+    throw Error(ErrorCode::BadArgument,
+                "the points are in one plane: a sphere around them would be pressed flat and fold; start without one, "
+                "from a mesh that is found");
   half = half.cwiseMax(kLeastAxis * half.maxCoeff());
   return {axes, 0.5 * (low + high), half};
 }

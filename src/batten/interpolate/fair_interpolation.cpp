@@ -310,6 +310,12 @@ FairInterpolant interpolate_fairly(const Topology& topology, const Scheme& schem
   }
   const int levels = options.levels.value_or(options.normals.size() > 0 ? 2 : 1);
   const UnitFrame frame(targets);
+  if (frame.diagonal > 0.0 && options.smoothing > frame.diagonal) {
+    throw Error(
+        ErrorCode::BadArgument,
+        "the smoothing is longer than the diagonal of the points' box, so that all of their shape would vanish; "
+        "give the length of the longest bumps to smooth");
+  }
   const Values wanted = frame.inwards(targets);
   const std::optional<Values> plain =
       plain_control(topology, scheme, wanted, levels, progress_within(progress, 0.0, 0.1));

@@ -27,7 +27,8 @@ struct FairOptions {
   std::optional<int> levels = {};
   ShapeEnergyKind energy = ShapeEnergyKind::Variation;
   /// 0: the surface passes through the targets. Otherwise in their unit: it may leave them where that makes it fairer.
-  /// A wave of this length comes out half as high, shorter ones vanish and longer ones stay.
+  /// A wave of this length comes out half as high, shorter ones vanish and longer ones stay. At most the diagonal of
+  /// the targets' box.
   double smoothing = 0.0;
   /// Normals that the surface shall have at its vertices: V-by-3 of any length, rows of zeros where none is wanted.
   /// Empty: none. The surface's tangent plane becomes perpendicular to the normal. Vertices of creases and corners,

@@ -42,7 +42,7 @@ EdgeLengths edge_lengths(const Topology& topology, ConstValuesRef points) {
         for (auto e = static_cast<Index>(begin); e < end; ++e) {
           const Index h = topology.edge_half_edge(e);
           const Eigen::RowVector3d edge = points.row(topology.origin(h)) - points.row(topology.destination(h));
-          const double length = edge.norm();
+          const double length = edge.stableNorm();
           part.shortest = std::min(part.shortest, length);
           part.mean += length;
           part.longest = std::max(part.longest, length);

@@ -75,13 +75,15 @@ NearestPoint NearestPoints::Parts::find(NearestSearch<Net>& search, const Eigen:
   const bool too_far = far > farthest && diagonal > 0.0;
   const Eigen::Vector3d from = too_far ? Eigen::Vector3d(centre + away * (farthest / far)) : query;
   const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * (from - centre).norm();
-  const NearestFound found = search.find(vector_of(from), std::max(tolerance, rounding));
+  // All boxes of a surface that is a point are equally near, and each of its points answers.
+  const bool is_point = diagonal <= tolerance;
+  const NearestFound found = search.find(vector_of(from), std::max(tolerance, rounding), is_point);
   NearestPoint result;
   const double most_u = std::is_same_v<Net, TriangleNet> ? 1.0 - found.v : 1.0;  // rounding on the third side
   result.place = {found.face, std::min(found.u, most_u), found.v};
   result.point = from + Eigen::Vector3d(found.offset[0], found.offset[1], found.offset[2]);
   result.distance = too_far ? (query - result.point).stableNorm() : std::sqrt(found.squared);
-  result.least_distance = too_far ? result.distance - diagonal : std::sqrt(found.least);
+  result.least_distance = too_far || is_point ? std::max(result.distance - diagonal, 0.0) : std::sqrt(found.least);
   return result;
 }
 

@@ -30,7 +30,7 @@ NearestSearch<Net>::NearestSearch(const SurfaceCells<Net>& cells)
       scratch_(cells.most_points()) {}
 
 template <typename Net>
-NearestFound NearestSearch<Net>::find(const Double4& query, double tolerance) {
+NearestFound NearestSearch<Net>::find(const Double4& query, double tolerance, bool any_point) {
   query_ = query;
   tolerance_ = tolerance;
   best_ = {};
@@ -44,6 +44,7 @@ NearestFound NearestSearch<Net>::find(const Double4& query, double tolerance) {
   queue_.clear();
   cells_.tree().visit_near(point, std::numeric_limits<float>::infinity(), [&](Index place) {
     if (cut_ > 0.0) visit(place);
+    if (any_point && std::isfinite(best_.squared)) cut_ = 0.0;
     return cut_ > 0.0 ? static_cast<float>(best_.squared * cells_.scale() * cells_.scale()) * kMore : 0.0F;
   });
   search_pending();

@@ -25,8 +25,9 @@ class NearestSearch {
  public:
   explicit NearestSearch(const SurfaceCells<Net>& cells);
 
-  /// Leaves out cells in which a point could be nearer by less than the tolerance.
-  NearestFound find(const Double4& query, double tolerance);
+  /// Leaves out cells in which a point could be nearer by less than the tolerance. any_point: the first point that is
+  /// found will do, since none is nearer by more than the caller knows; `least` is then 0.
+  NearestFound find(const Double4& query, double tolerance, bool any_point);
 
  private:
   /// A part of a cell that waits to be halved.

@@ -25,22 +25,38 @@ void combine_four(Scalar* __restrict out, Scalar origin, const Scalar* weight, s
   }
 }
 
+#if defined(__AVX512F__)
+constexpr std::ptrdiff_t kVectorBytes = 64;
+#elif defined(__AVX__)
+constexpr std::ptrdiff_t kVectorBytes = 32;
+#else
+constexpr std::ptrdiff_t kVectorBytes = 16;
+#endif
+
+/// Sums of three columns at a time, of four vectors each: processors have sixteen registers for these, some more. With
+/// more sums WebAssembly's code keeps them in memory.
+template <typename Scalar>
+constexpr std::ptrdiff_t kSumLanes = std::min<std::ptrdiff_t>(kGridLanes,
+                                                              4 * kVectorBytes /
+                                                                  static_cast<std::ptrdiff_t>(sizeof(Scalar)));
+
 /// out[c][i] = origin[c] + sum over j of control[j * columns + first + c] * weights[j * stride + i]; out planes are
 /// `stride` apart.
 template <int C, typename Scalar>
 void combine_many(Scalar* __restrict out, const Scalar* origin, const Scalar* control, int count, int columns,
                   const Scalar* __restrict weights, std::ptrdiff_t stride) {
-  for (std::ptrdiff_t first = 0; first < stride; first += kGridLanes) {
-    Scalar sum[C][kGridLanes] = {};
+  constexpr std::ptrdiff_t kLanes = kSumLanes<Scalar>;
+  for (std::ptrdiff_t first = 0; first < stride; first += kLanes) {
+    Scalar sum[C][kLanes] = {};
     for (int j = 0; j < count; ++j) {
       const Scalar* row = weights + j * stride + first;
       for (int c = 0; c < C; ++c) {
         const Scalar weight = control[j * columns + c];
-        for (std::ptrdiff_t i = 0; i < kGridLanes; ++i) sum[c][i] += weight * row[i];
+        for (std::ptrdiff_t i = 0; i < kLanes; ++i) sum[c][i] += weight * row[i];
       }
     }
     for (int c = 0; c < C; ++c) {
-      for (std::ptrdiff_t i = 0; i < kGridLanes; ++i) out[c * stride + first + i] = origin[c] + sum[c][i];
+      for (std::ptrdiff_t i = 0; i < kLanes; ++i) out[c * stride + first + i] = origin[c] + sum[c][i];
     }
   }
 }

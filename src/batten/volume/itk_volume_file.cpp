@@ -6,6 +6,7 @@
 #include <itkMetaImageIO.h>
 #include <itkNiftiImageIO.h>
 #include <itkNrrdImageIO.h>
+#include <itkObject.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -62,9 +63,13 @@ itk::ImageIOBase::Pointer image_io(const std::string& path) {
   throw Error(ErrorCode::BadFile, path + ": " + why);
 }
 
-/// The first line that says something of what ITK says.
+/// The first line that says something of what ITK says, in our words where its own say little.
 std::string reason_of(const itk::ExceptionObject& error) {
   std::string text = error.GetDescription();
+  if (text.find("orthonormal") != std::string::npos)
+    return "the axes in its header (sform) are not at right angles, or not as long as its voxel sizes (pixdim); "
+           "resample "
+           "it, or write its header again";
   std::replace(text.begin(), text.end(), '\n', ' ');
   const std::size_t colon = text.rfind("): ");
   return colon == std::string::npos ? text : text.substr(colon + 3);
@@ -285,6 +290,7 @@ Volume read_volume(const std::string& path) {
   std::error_code failed;
   const fs::file_status status = fs::status(path, failed);
   if (!fs::exists(status)) throw Error(ErrorCode::FileNotReadable, path + ": there is no such file or folder");
+  itk::Object::GlobalWarningDisplayOff();  // what it warns of, the errors tell
   Volume volume;
   try {
     volume = fs::is_directory(status) ? read_slices(path) : read_image(path);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 
 #include "batten/error.h"
 #include "batten/fit/point_tree.h"
@@ -19,7 +20,9 @@ Volume points_mask(const Points& points, Index cells) {
   constexpr double kGrowth = 1.2;
   constexpr double kSafe = 2.0;
   require_finite(points, "points");
-  if (points.rows() < 6) throw Error(ErrorCode::BadArgument, "six points or more on the surface");
+  if (points.rows() < 6)
+    throw Error(ErrorCode::BadArgument,
+                "a surface starts from six points on it or more; there are " + std::to_string(points.rows()));
   if (cells < 8 || cells > 256) throw Error(ErrorCode::BadArgument, "a grid of 8 to 256 cells along a side");
   const Eigen::RowVector3d low = points.colwise().minCoeff();
   const Eigen::RowVector3d high = points.colwise().maxCoeff();

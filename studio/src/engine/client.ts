@@ -2,7 +2,8 @@
 import * as Comlink from 'comlink';
 import type { Engine } from './engine';
 import type { Host } from './worker';
-import type { Drawing } from './types';
+import { handedOver } from './handing';
+import type { Change, Drawing, Shape } from './types';
 import { EngineError } from './types';
 
 const CANCELLED = 18;
@@ -30,6 +31,8 @@ export class EngineClient {
   private engine: Promise<Started> | null = null;
   private stopFlag: Int32Array | null = null;
   private rejectRunning: ((reason: Error) => void) | null = null;
+  /** Arrays of the last shape, which the page has done with. */
+  private room: Shape | null = null;
   onProgress: (done: number) => void = () => undefined;
   onFrame: (drawing: Drawing) => void = () => undefined;
   /** Called after a restart: the engine holds nothing any more. */
@@ -61,6 +64,20 @@ export class EngineClient {
     } finally {
       this.rejectRunning = null;
     }
+  }
+
+  /**
+   * Runs `work` that answers a surface in motion, and `use`, which keeps none of its arrays: they go back with the next
+   * call, and the engine fills them again, since a browser clears fresh memory before it is written.
+   */
+  async reshape<T extends Change>(work: (engine: Comlink.Remote<Engine>, room: Shape | null) => Promise<T>, use: (change: T) => void): Promise<T> {
+    const { room } = this;
+    this.room = null;
+    const change = await this.run((engine) => work(engine, handedOver(room)));
+    use(change);
+    // Those of some vertices are of another size each time, and triangles are kept with their points.
+    if (!change.vertices && !change.triangles) this.room = { points: change.points, normals: change.normals, control: change.control };
+    return change;
   }
 
   /** Stops what is running: by the library's own callback where memory is shared, otherwise with the Worker. */

@@ -145,12 +145,15 @@ export class Engine {
     }
   }
 
-  /** Moves one point; the surface follows. The file's points follow by setPoints(), when the drag ends. */
-  move(vertex: number, to: Vec3, rings: number): Moved {
+  /**
+   * Moves one point; the surface follows. The file's points follow by setPoints(), when the drag ends.
+   * room: the arrays of an earlier answer, to be filled again; fresh ones are cleared first.
+   */
+  move(vertex: number, to: Vec3, rings: number, room: Shape | null = null): Moved {
     const begin = performance.now();
     const report = got(this.shown.move(vertex, to[0], to[1], to[2], rings));
     const solved = performance.now();
-    const change = got(this.shown.change());
+    const change = got(this.shown.change(room));
     return { ...change, maxError: report.maxError, solveMs: solved - begin, drawMs: performance.now() - solved };
   }
 
@@ -291,13 +294,14 @@ export class Engine {
   release(): void {
     if (this.elastic) got(this.elastic.release());
   }
-  stepSculpture(count: number): Shape & { kinetic: number; ms: number } {
+  /** room: as move() has it. */
+  stepSculpture(count: number, room: Shape | null = null): Shape & { ms: number } {
     if (!this.elastic || !this.sculpted) throw new Error('nothing is being sculpted');
     const begin = performance.now();
-    const { kinetic } = got(this.elastic.step(count));
+    got(this.elastic.step(count));
     const ms = performance.now() - begin;
-    got(this.sculpted.setControl(got(this.elastic.control())));
-    return { ...got(this.sculpted.shape()), kinetic, ms };
+    got(this.sculpted.follow(this.elastic));
+    return { ...got(this.sculpted.shape(room)), ms };
   }
   /** The points through which the sculpted surface passes, or its control points. */
   sculptedPoints(interpolated: boolean): Float64Array {

@@ -28,10 +28,10 @@ export interface MeshFile extends Handle {
 export interface Surface extends Handle {
   report(): Report;
   drawing(): Result<Drawing>;
-  shape(): Result<Shape>;
-  change(): Result<Change>;
+  shape(room: Shape | null): Result<Shape>;
+  change(room: Shape | null): Result<Change>;
   move(vertex: number, x: number, y: number, z: number, rings: number): Result<{ moved?: number; maxError?: number }>;
-  setControl(points: Float64Array): Result<null>;
+  follow(body: Elastic): Result<null>;
   limitPoints(): Result<Float64Array>;
   field(word: string): Result<Field>;
   texture(preset: number, seed: number): Result<Float32Array>;
@@ -43,7 +43,7 @@ export interface Elastic extends Handle {
   grab(x: number, y: number, z: number, stiffness: number): Result<null>;
   pull(x: number, y: number, z: number): Result<null>;
   release(): Result<null>;
-  step(count: number): Result<{ time: number; kinetic: number; elastic: number }>;
+  step(count: number): Result<{ time: number }>;
   pin(x: number, y: number, z: number): Result<{ point: Float64Array }>;
   refine(): Result<null>;
   control(): Result<Float64Array>;

@@ -3,6 +3,7 @@ import * as Comlink from 'comlink';
 import createEngine from '@engine/engine.js';
 import wasmUrl from '@engine/engine.wasm?url';
 import { Engine } from './engine';
+import { handedOver } from './handing';
 import type { EngineModule } from './module';
 import type { Drawing } from './types';
 
@@ -22,13 +23,7 @@ function report(done: number): boolean {
 }
 
 function watch(drawing: Drawing): void {
-  show?.(Comlink.transfer(drawing, [...new Set(buffersOf(drawing))]));
-}
-
-/** The memory of all typed arrays in a result. */
-function buffersOf(result: unknown): ArrayBuffer[] {
-  if (ArrayBuffer.isView(result)) return result.buffer instanceof ArrayBuffer ? [result.buffer] : [];
-  return typeof result === 'object' && result !== null ? Object.values(result).flatMap(buffersOf) : [];
+  show?.(handedOver(drawing));
 }
 
 /** The engine, whose results are handed over instead of copied: they are nobody else's. */
@@ -37,10 +32,7 @@ function handingOver(engine: Engine): Engine {
     get(target, name) {
       const member: unknown = Reflect.get(target, name);
       if (typeof member !== 'function') return member;
-      return (...words: unknown[]) => {
-        const result: unknown = Reflect.apply(member, target, words);
-        return typeof result === 'object' && result !== null ? Comlink.transfer(result, [...new Set(buffersOf(result))]) : result;
-      };
+      return (...words: unknown[]) => handedOver(Reflect.apply(member, target, words) as unknown);
     },
   });
 }

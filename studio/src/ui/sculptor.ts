@@ -57,9 +57,13 @@ export class Sculptor {
   }
 
   async step(): Promise<void> {
-    const shape = await this.app.engine.run<Shape & { ms: number }>((engine) => engine.stepSculpture(1));
-    this.lastMs = shape.ms;
-    if (this.running) this.app.stage.reshape(shape);
+    const { ms } = await this.app.engine.reshape<Shape & { ms: number }>(
+      (engine, room) => engine.stepSculpture(1, room),
+      (shape) => {
+        if (this.running) this.app.stage.reshape(shape);
+      },
+    );
+    this.lastMs = ms;
   }
 
   private then(work: () => Promise<void>): void {

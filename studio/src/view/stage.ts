@@ -281,6 +281,7 @@ export class Stage {
   wear(look: Look): void {
     if (look === 'plain') this.surface.lookPlain();
     else if (look === 'zebra') this.surface.lookZebra();
+  /** Keeps none of the arrays, but with triangles all. */
     else if (look instanceof Float32Array) this.surface.lookTextured(look);
     else this.surface.lookMeasured(look);
     this.touch();

@@ -3,6 +3,7 @@ import type * as Comlink from 'comlink';
 import { describe, expect, it } from 'vitest';
 import { EngineClient, type Started } from '../../src/engine/client';
 import type { Engine } from '../../src/engine/engine';
+import type { Change, Shape } from '../../src/engine/types';
 
 /** Starts engines that are numbers, each later than the one before where `late` says so. */
 function counting(waits: readonly number[]) {
@@ -42,5 +43,27 @@ describe('EngineClient', () => {
     });
     await expect(client.run(async () => 1)).rejects.toThrow('no memory');
     expect(await client.run(async () => 1)).toBe(1);
+  });
+
+  it('hands the arrays of a shape back once it is drawn, unless they are kept or of some vertices', async () => {
+    const client = new EngineClient(async () => ({ remote: {} as Comlink.Remote<Engine>, end: () => undefined }));
+    const shape = (): Shape => ({ points: new Float32Array(6), normals: new Float32Array(6), control: new Float32Array(3) });
+    const first = shape();
+    const rooms: (Shape | null)[] = [];
+    const drawn: Change[] = [];
+    const answers: Change[] = [first, { ...shape(), vertices: Int32Array.of(1) }, { ...shape(), triangles: new Uint32Array(3) }, shape()];
+    for (const answer of answers)
+      await client.reshape<Change>(
+        async (_, room) => {
+          rooms.push(room);
+          return answer;
+        },
+        (change) => drawn.push(change),
+      );
+    expect(drawn).toEqual(answers);
+    expect(rooms[1]?.points).toBe(first.points);
+    expect(rooms[1]?.normals).toBe(first.normals);
+    expect(rooms[1]?.control).toBe(first.control);
+    expect([rooms[0], rooms[2], rooms[3]]).toEqual([null, null, null]);
   });
 });

@@ -70,6 +70,23 @@ describe('interpolation', () => {
   });
 });
 
+describe('room', () => {
+  it('is filled again where it has the sizes, and is left alone elsewhere', () => {
+    engine.open('tripod.obj', model('tripod'));
+    engine.show(PLAIN);
+    const first = engine.move(10, [1, 2, 3], 0);
+    const kept = { points: first.points.slice(), normals: first.normals.slice(), control: first.control.slice() };
+    const { points, normals, control } = first;
+    const second = engine.move(10, [1, 2, 4], 0, { points, normals, control });
+    for (const part of ['points', 'normals', 'control'] as const) expect(second[part]).toBe(first[part]);
+    expect(second.points).not.toEqual(kept.points);
+    const third = engine.move(10, [1, 2, 3], 0, { points: new Float32Array(3), normals, control: new Float32Array() });
+    expect(third.normals).toBe(normals);
+    for (const part of ['points', 'normals', 'control'] as const)
+      for (let i = 0; i < kept[part].length; ++i) expect(third[part][i]).toBeCloseTo(kept[part][i] ?? NaN, 5);
+  });
+});
+
 describe('wanted normals', () => {
   it.each([false, true])('are those of the surface, fair: %s', (fair) => {
     engine.open('creature.obj', model('creature'));
