@@ -6,21 +6,12 @@
 namespace batten::bench {
 namespace {
 
-/// Cubes of 1 mm, or slices of 3 mm.
-VolumeGrid grid_of(double slice) {
-  VolumeGrid grid;
-  grid.size = {54, 54, static_cast<Index>(54.0 / slice)};
-  grid.axes = Eigen::Vector3d(1.0, 1.0, slice).asDiagonal();
-  grid.origin = -grid.axes * Eigen::Vector3d(26.5, 26.5, 0.5 * (grid.size[2] - 1.0));
-  return grid;
-}
-
 void print_row(const test::Phantom& phantom, double slice) {
   std::printf("| %s, voxels of 1 x 1 x %g mm |", phantom.name, slice);
   for (const double noise : {0.0, 0.05, 0.1}) {
     SegmentRequest request;
     request.seed = phantom.seed;
-    const VolumeGrid grid = grid_of(slice);
+    const VolumeGrid grid = test::body_grid(slice);
     const SegmentResult found = segment_volume(test::imaged(phantom, grid, noise), request);
     const test::Truth truth = test::compared(found, phantom);
     std::printf(" %.3f, %.3f, %+.1f %% |", truth.dice, truth.distance / std::cbrt(grid.voxel_volume()),

@@ -97,6 +97,11 @@ CLI::Option* add_input_volume(CLI::App& verb, const std::string& name, std::stri
   return verb.add_option(name, target, help)->type_name(kVolumeType)->option_text(kVolumeType);
 }
 
+CLI::Option* add_input_files(CLI::App& verb, const std::string& name, std::vector<std::string>& targets,
+                             const std::string& help) {
+  return verb.add_option(name, targets, help)->type_name(kInputType)->allow_extra_args(false);
+}
+
 CLI::Option* add_output_file(CLI::App& verb, const std::string& name, std::string& target, const std::string& help,
                              const std::vector<std::string>& extensions) {
   CLI::Option* option = verb.add_option(name, target, help)->type_name(kOutputType);

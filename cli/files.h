@@ -10,6 +10,9 @@ namespace batten::cli {
 
 /// Adds an option, or without a leading dash a positional argument, for a file that the verb reads.
 CLI::Option* add_input_file(CLI::App& verb, const std::string& name, std::string& target, const std::string& help);
+/// The same for an option that may stand several times, a file each.
+CLI::Option* add_input_files(CLI::App& verb, const std::string& name, std::vector<std::string>& targets,
+                             const std::string& help);
 
 /// The same for a volume, which may be a folder of slices.
 CLI::Option* add_input_volume(CLI::App& verb, const std::string& name, std::string& target, const std::string& help);

@@ -2,6 +2,9 @@
 #include <fmt/format.h>
 
 #include "batten/volume/inside_volume.h"
+#include "batten/volume/label_mask.h"
+#include "batten/volume/marked_points.h"
+#include "batten/volume/mask_contours.h"
 #include "cli/input_output.h"
 #include "cli/picture.h"
 #include "cli/progress.h"
@@ -83,6 +86,30 @@ Table table_of(const SegmentRequest& request, const SegmentResult& found, const 
   return table;
 }
 
+/// The points of all files: those that 3D Slicer wrote say their world, the others are in that of --space.
+Points read_points(const SegmentArguments& arguments, Job& job) {
+  Points all(0, 3);
+  for (const std::string& path : arguments.points) {
+    const Points points =
+        is_marked_points_path(path)
+            ? read_marked_points(path)
+            : in_space(read_file(path, "", arguments.common.quiet, &job.notes).points, arguments.space);
+    all.conservativeResize(all.rows() + points.rows(), 3);
+    all.bottomRows(points.rows()) = points;
+  }
+  return all;
+}
+
+/// Points as if only some slices of the labels had been drawn. Labels that are painted in these slices only are not
+/// compared with: they say nothing of the others.
+void take_contours(const SegmentArguments& arguments, SegmentRequest& request) {
+  const MaskContours contours = mask_contours(label_mask(*request.labels, request.label), *arguments.slices);
+  request.points = contours.points;
+  if (!contours.painted) return;
+  request.labels.reset();
+  request.label.clear();
+}
+
 SegmentRequest request_of(const SegmentArguments& arguments, Volume labels, Job& job) {
   const auto read_in_space = [&](const std::string& path) {
     return in_space(read_file(path, "", arguments.common.quiet, &job.notes), arguments.space);
@@ -94,7 +121,8 @@ SegmentRequest request_of(const SegmentArguments& arguments, Volume labels, Job&
   request.surface.smoothing = arguments.smoothing;
   if (!arguments.mask.empty()) request.labels = std::move(labels);
   request.label = arguments.labels;
-  if (!arguments.points.empty()) request.points = read_in_space(arguments.points).points;
+  request.points = read_points(arguments, job);
+  if (arguments.slices) take_contours(arguments, request);
   if (!arguments.seed.empty()) {
     Points seed(1, 3);
     seed << arguments.seed[0], arguments.seed[1], arguments.seed[2];

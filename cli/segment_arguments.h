@@ -15,14 +15,15 @@ struct SegmentArguments {
   CommonArguments common;  ///< input: the volume
   PictureArguments picture;
   EvolutionArguments evolution;
-  std::string mask;             ///< a volume of labels; empty: the input
-  std::vector<double> labels;   ///< empty: all but 0
-  bool together = false;        ///< each label a surface of its own
-  std::string points;           ///< on the surface; empty: none
-  std::vector<double> seed;     ///< x, y, z in the part; empty: none
-  std::vector<double> numbers;  ///< least and greatest number of the part around the seed; empty: found
-  std::string start;            ///< a mesh to start from; empty: none
-  bool edges = false;           ///< draw the surface of the labels to the image's edges
+  std::string mask;                 ///< a volume of labels; empty: the input
+  std::vector<double> labels;       ///< empty: all but 0
+  bool together = false;            ///< each label a surface of its own
+  std::vector<std::string> points;  ///< on the surface, files of them; empty: none
+  std::optional<Index> slices;      ///< points are the labels' borders in every n-th slice
+  std::vector<double> seed;         ///< x, y, z in the part; empty: none
+  std::vector<double> numbers;      ///< least and greatest number of the part around the seed; empty: found
+  std::string start;                ///< a mesh to start from; empty: none
+  bool edges = false;               ///< draw the surface of the labels to the image's edges
   std::optional<Index> vertices;
   std::optional<Index> genus;
   double smoothing = 0.15;  ///< in voxels

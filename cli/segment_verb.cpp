@@ -18,9 +18,15 @@ void add_starts(CLI::App& verb, SegmentArguments& arguments) {
   verb.add_flag("--together", arguments.together,
                 "a surface for each --label, which do not meet each other, in files of their own: -o organ.obj writes "
                 "organ-71.obj and organ-72.obj. --inside then has the labels' numbers");
-  add_input_file(verb, "--points", arguments.points,
-                 "points on the border of the part, in the world of --space: the surface starts from them and is drawn "
-                 "to them and to the image's edges; .xyz or a mesh. Labels are then only compared with");
+  add_input_files(verb, "--points", arguments.points,
+                  "points on the border of the part: the surface starts from them and is drawn to them and to the "
+                  "image's edges; .mrk.json or .fcsv of 3D Slicer, which say their world, or .xyz or a mesh, in the "
+                  "world of --space. May stand several times. Labels are then only compared with");
+  verb.add_option(
+          "--slices", arguments.slices,
+          "with --mask: points are the border of the label in every Nth slice, as if only these had been drawn; "
+          "1 for a label that is painted in some slices only, across whatever index")
+      ->check(whole_number(1));
   verb.add_option("--seed", arguments.seed,
                   "a place in the part, in mm of the world of --space: the surface starts from what a front reaches "
                   "from there before it leaks through the image's edges, and is drawn to them")
@@ -38,13 +44,14 @@ void add_starts(CLI::App& verb, SegmentArguments& arguments) {
 
 /// One start, and what a given mesh says itself.
 void exclude_starts(CLI::App& verb) {
-  const std::vector<std::string> starts{"--points", "--seed", "--start"};
+  const std::vector<std::string> starts{"--points", "--slices", "--seed", "--start"};
   for (const std::string& start : starts) {
     for (const std::string& other : starts) {
       if (start != other) verb.get_option(start)->excludes(verb.get_option(other));
     }
   }
-  for (const char* option : {"--points", "--seed", "--start", "--edges", "--parts", "--frames", "--film", "--moments"})
+  for (const char* option :
+       {"--points", "--slices", "--seed", "--start", "--edges", "--parts", "--frames", "--film", "--moments"})
     verb.get_option("--together")->excludes(verb.get_option(option));
   for (const char* option : {"--vertices", "--genus", "--smoothing", "--scheme"})
     verb.get_option("--start")->excludes(verb.get_option(option));
@@ -91,7 +98,7 @@ void add_segment(CLI::App& app, SegmentArguments& arguments, int& status) {
     require_with(verb, {"--together"}, {"--label"});
     if (arguments.together && is_standard_output(arguments.common.output))
       throw UsageError("--together writes a file for each label: standard output takes one");
-    require_with(verb, {"--edges"}, {"--mask"});
+    require_with(verb, {"--edges", "--slices"}, {"--mask"});
     require_with(verb, {"--numbers"}, {"--seed"});
     return run_segment(arguments);
   });

@@ -106,6 +106,8 @@
 #include "batten/volume/image_forces.h"
 #include "batten/volume/inside_volume.h"
 #include "batten/volume/label_mask.h"
+#include "batten/volume/marked_points.h"
+#include "batten/volume/mask_contours.h"
 #include "batten/volume/point_slices.h"
 #include "batten/volume/points_mask.h"
 #include "batten/volume/recursive_filter.h"

@@ -1,4 +1,5 @@
 /// The verb segment: from a volume of labels to a control mesh, a table, pictures and a report.
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "batten/io/io.h"
@@ -118,6 +119,47 @@ TEST_F(SegmentTool, ShowsTheWayFromASeedThroughItsEdges) {
   }
   ASSERT_EQ(run("segment ball.nrrd --start a.obj -o b.obj --frames again").status, 0);
   EXPECT_EQ(read_mesh(path("again/round-000.obj")).points, read_mesh(path("a.obj")).points);
+}
+
+TEST_F(SegmentTool, TakesContoursOfALabelAndPointsOf3DSlicer) {
+  const Outcome contours =
+      run("segment ball.nrrd --mask ball.nrrd --label 7 --slices 2 --vertices 100 -o a.obj --report r.json");
+  ASSERT_EQ(contours.status, 0) << contours.err;
+  EXPECT_EQ(nlohmann::json::parse(text_of(path("r.json"))).at("slices"), 4) << "of the 7 that the ball has";
+  EXPECT_GT(nlohmann::json::parse(text_of(path("r.json"))).at("dice"), 0.93);
+  // The same ball by hand, in the other world: half of the points in each kind of file.
+  std::string table = "# CoordinateSystem = LPS\n";
+  std::string list = R"({"markups": [{"type": "ClosedCurve", "coordinateSystem": "LPS", "controlPoints": [)";
+  for (int k = 0; k < 5; ++k) {
+    const double z = 4.8 * (k - 2);
+    for (int i = 0; i < 24; ++i) {
+      const double far = std::sqrt(144.0 - z * z);
+      const double x = 10.0 + far * std::cos(i * 0.2618);
+      const double y = 20.0 + far * std::sin(i * 0.2618);
+      const std::string numbers = std::to_string(x) + "," + std::to_string(y) + "," + std::to_string(30.0 + z);
+      if (k % 2 == 0)
+        table += "id," + numbers + ",0,0,0,1,1,1,0,F,,\n";
+      else
+        list += (list.back() == '[' ? "" : ",") + (R"({"position": [)" + numbers + "]}");
+    }
+  }
+  write("some.fcsv", table);
+  write("others.mrk.json", list + "]}]}");
+  const Outcome result = run(
+      "segment ball.nrrd --points some.fcsv --points others.mrk.json --vertices 100 -o b.obj --report s.json --space "
+      "ras");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("120 points in 5 slices"), std::string::npos) << result.out;
+  const Points points = read_mesh(path("b.obj")).points;
+  const Eigen::RowVector3d middle = 0.5 * (points.colwise().minCoeff() + points.colwise().maxCoeff());
+  EXPECT_LT((middle - Eigen::RowVector3d(-10.0, -20.0, 30.0)).norm(), 1.0) << middle;
+  const auto report = nlohmann::json::parse(text_of(path("s.json")));
+  EXPECT_NEAR(report.at("volume").get<double>(), 7238.2, 0.05 * 7238.2) << "a ball of 12 mm";
+  write("wrong.fcsv", "a,1,2,3\n");
+  EXPECT_NE(run("segment ball.nrrd --points wrong.fcsv -o c.obj").err.find("wrong.fcsv: it does not say its world"),
+            std::string::npos);
+  EXPECT_EQ(run("segment ball.nrrd --slices 2 -o c.obj").status, 2) << "slices of which mask?";
+  EXPECT_EQ(run("segment ball.nrrd --mask ball.nrrd --slices 2 --points some.fcsv -o c.obj").status, 2);
 }
 
 /// The limit surfaces of two control meshes as triangles.

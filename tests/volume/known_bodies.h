@@ -50,6 +50,15 @@ inline const Phantom kPhantoms[] = {{"ellipsoid", ellipsoid, {0, 0, 0}},
                                     {"bean", large_bean, {0, 0, 0}},
                                     {"two lobes", two_lobes, {-6, 0, 0}}};
 
+/// Around the bodies: cubes of 1 mm, or thicker slices.
+inline VolumeGrid body_grid(double slice) {
+  VolumeGrid grid;
+  grid.size = {54, 54, static_cast<Index>(54.0 / slice)};
+  grid.axes = Place(1.0, 1.0, slice).asDiagonal();
+  grid.origin = -grid.axes * Place(26.5, 26.5, 0.5 * (grid.size[2] - 1.0));
+  return grid;
+}
+
 /// The shape as an image of contrast 100: parts of voxels, a Gaussian blur of one voxel along each index, noise.
 inline Volume imaged(const Phantom& phantom, const VolumeGrid& grid, double noise) {
   const Place spacing(grid.spacing(0), grid.spacing(1), grid.spacing(2));

@@ -52,6 +52,20 @@ TEST(SegmentMask, SaysThatAPartOfTwoVoxelsIsTooSmall) {
   test::expect_error([&] { segmented(two); }, ErrorCode::BadArgument, "only 10 outer faces");
 }
 
+TEST(SegmentMask, ALineAndAPlateOfOneVoxelAreWhole) {
+  for (const double across : {0.5, 10.0}) {
+    const Volume thin = test::made_volume(test::centred_grid(25), [&](const Eigen::Vector3d& at) {
+      return std::abs(at[0]) < 10.0 && std::abs(at[1]) < across && std::abs(at[2]) < 0.5 ? 1 : 0;
+    });
+    const Segmentation found = segmented(thin, across < 1.0 ? 386 : 1500);
+    EXPECT_EQ(found.components, 1) << across;
+    EXPECT_EQ(found.genus, 0) << across;
+    const SurfaceMeasures measures = measured(found);
+    EXPECT_EQ(measures.self_intersections, 0);
+    EXPECT_GT(compare_with_mask(measures.fine, label_mask(thin, {})).dice, 0.95);
+  }
+}
+
 TEST(SegmentMask, TheWorldsSurfaceDoesNotDependOnTheOrderOfIndices) {
   const Volume shape = test::made_volume(test::centred_grid(27), test::bean);
   const Segmentation plain = segmented(shape, 80);

@@ -148,6 +148,36 @@ double pipe(const Place& at) {
   return std::min(3.0 - std::abs(std::hypot(at[0], at[1]) - 9.0), 10.0 - std::abs(at[2]));
 }
 
+/// A rod 2.4 wide that moves by 6 from slice to slice, where these are 4 apart.
+double flat_rod(const Place& at) {
+  const Place along = Place(6, 0, 4).normalized();
+  const double far = std::clamp(at.dot(along), -18.0, 18.0);
+  return 1.2 - (at - far * along).norm();
+}
+
+TEST(SlicesMask, AThinPartThatMovesByMoreThanItsWidthStaysWhole) {
+  const Points points = contours(flat_rod, every(4.0, -8.0, 9.0));
+  const Volume mask = slices_mask(points, *find_slices(points));
+  SegmentOptions options;
+  options.vertices = 200;
+  EXPECT_EQ(segment_mask(mask, options).components, 1);
+  EXPECT_GT(likeness(mask, flat_rod), 0.8) << "half a cell of the test all around is 0.25 of it";
+}
+
+/// Two balls, the upper one far to the side of the lower one.
+double two_balls(const Place& at) {
+  return std::max(6.0 - (at - Place(-14, 0, -8)).norm(), 6.0 - (at - Place(14, 0, 8)).norm());
+}
+
+TEST(SlicesMask, PartsThatAreFartherApartThanSlicesStayApart) {
+  const Points points = contours(two_balls, every(4.0, -12.0, 13.0));
+  const Volume mask = slices_mask(points, *find_slices(points));
+  SegmentOptions options;
+  options.vertices = 200;
+  EXPECT_EQ(segment_mask(mask, options).components, 2);
+  EXPECT_GT(likeness(mask, two_balls), 0.87) << "three slices a ball";
+}
+
 TEST(SlicesMask, HolesOfSlicesStayOpen) {
   const Points points = contours(pipe, every(4.0, -8.0, 8.0));
   const Volume mask = slices_mask(points, *find_slices(points));

@@ -25,6 +25,8 @@ class GuardedSteps {
   /// look at, control points move towards the mean of their neighbours until it does not.
   void mend();
 
+  /// Pairs of triangles that meet where steps look.
+  std::int64_t meetings() const { return meetings_; }
   int taken() const { return taken_; }
   int cut() const { return cut_; }
 
@@ -34,7 +36,7 @@ class GuardedSteps {
   SurfaceFitter& fitter_;
   std::optional<VolumeGrid> within_;
   FrameWatcher watch_;
-  std::int64_t meetings_ = 0;  ///< pairs of triangles that meet
+  std::int64_t meetings_ = 0;
   int taken_ = 0;
   int cut_ = 0;
 };

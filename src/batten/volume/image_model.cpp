@@ -25,22 +25,27 @@ struct LocalLine {
   double explained = 0.0;   ///< the line's share of it
 };
 
+/// Along each index: the voxel before less twice this one and the one after; beyond the border is as this one.
+Eigen::Vector3d second_differences(const Volume& volume, std::ptrdiff_t voxel) {
+  Eigen::Vector3d differences;
+  std::ptrdiff_t stride = 1;
+  for (int c = 0; c < 3; ++c) {
+    const auto at = static_cast<Index>(voxel / stride % volume.grid.size[c]);
+    const double before = volume.values[at > 0 ? voxel - stride : voxel];
+    const double after = volume.values[at + 1 < volume.grid.size[c] ? voxel + stride : voxel];
+    differences[c] = before - 2.0 * volume.values[voxel] + after;
+    stride *= volume.grid.size[c];
+  }
+  return differences;
+}
+
 /// The weighted sum of the variances of noise, by second differences along the index where they are least: those of
 /// numbers without a relation have six times their variance.
 double noise_of(const Volume& volume, const Buffer<float>& weights) {
-  const VolumeGrid& grid = volume.grid;
+  constexpr double kOfNumbers = 1.0 / 6.0;
   Eigen::Vector3d sums = Eigen::Vector3d::Zero();
-  for (std::ptrdiff_t voxel = 0; voxel < grid.count(); ++voxel) {
-    if (!(weights[voxel] > 0.0F)) continue;
-    std::ptrdiff_t stride = 1;
-    for (int c = 0; c < 3; ++c) {
-      const auto at = static_cast<Index>(voxel / stride % grid.size[c]);
-      const double before = volume.values[at > 0 ? voxel - stride : voxel];
-      const double after = volume.values[at + 1 < grid.size[c] ? voxel + stride : voxel];
-      const double second = before - 2.0 * volume.values[voxel] + after;
-      sums[c] += weights[voxel] * second * second / 6.0;
-      stride *= grid.size[c];
-    }
+  for (std::ptrdiff_t voxel = 0; voxel < volume.grid.count(); ++voxel) {
+    if (weights[voxel] > 0.0F) sums += kOfNumbers * weights[voxel] * second_differences(volume, voxel).cwiseAbs2();
   }
   return sums.minCoeff();
 }
@@ -133,6 +138,7 @@ void ImageModel::set_surface(const Mesh& fine) {
   const Around around = sums_around(parts, model);
   pulls_ = steps_ = trust_ = model;
   Volume differences = model;
+  const Eigen::Vector3d squares = grid.axes.colwise().squaredNorm().transpose();
   double all = 0.0;
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
@@ -146,15 +152,8 @@ void ImageModel::set_surface(const Mesh& fine) {
     const double weight = around.band[voxel];
     if (!(weight > 0.0)) continue;
     all += weight * line.variance;
-    Eigen::Vector3d bends;  // what m gains by a unit of variance
-    std::ptrdiff_t stride = 1;
-    for (int c = 0; c < 3; ++c) {
-      const auto at = static_cast<Index>(voxel / stride % grid.size[c]);
-      const double before = model.values[at > 0 ? voxel - stride : voxel];
-      const double after = model.values[at + 1 < grid.size[c] ? voxel + stride : voxel];
-      bends[c] = 0.5 * line.step * (before - 2.0 * m + after) / (grid.spacing(c) * grid.spacing(c));
-      stride *= grid.size[c];
-    }
+    // What m gains by a unit of variance.
+    const Eigen::Vector3d bends = 0.5 * line.step * second_differences(model, voxel).cwiseQuotient(squares);
     matrix += weight * bends * bends.transpose();
     right += weight * line.difference * bends;
   }

@@ -53,6 +53,16 @@ VoxelBox box_of(const Volume& volume, const Test& has) {
               "no voxel has " + which + "; there " + (there.empty() ? "is only 0" : "are " + text));
 }
 
+/// Places on a face across an index, evenly around its middle.
+void add_face(const Eigen::Vector3d& middle, int axis, Index along, std::vector<Eigen::Vector3d>& places) {
+  for (Index b = 0; b < along; ++b) {
+    for (Index a = 0; a < along; ++a) {
+      places.push_back(middle + ((a + 0.5) / along - 0.5) * Eigen::Vector3d::Unit((axis + 1) % 3) +
+                       ((b + 0.5) / along - 0.5) * Eigen::Vector3d::Unit((axis + 2) % 3));
+    }
+  }
+}
+
 }  // namespace
 
 std::string label_text(double label) {
@@ -102,9 +112,10 @@ Volume label_mask(const Volume& volume, const std::vector<double>& labels, Index
   return mask;
 }
 
-PointCloud mask_border(const Volume& mask) {
+PointCloud mask_border(const Volume& mask, Index along) {
   constexpr double kAlpha = 1.2;  // of the mean spacing: smoothed over some two voxels
   require_volume(mask);
+  if (along < 1) throw Error(ErrorCode::BadArgument, "a face has one point along its sides, or more");
   const VolumeGrid& grid = mask.grid;
   const Gradient slope = gradient(mask, kAlpha / std::cbrt(grid.voxel_volume()));
   std::vector<Eigen::Vector3d> places;
@@ -117,7 +128,7 @@ PointCloud mask_border(const Volume& mask) {
           std::array<Index, 3> next = at;
           ++next[axis];
           if (mask.at(i, j, k) == mask.at(next[0], next[1], next[2])) continue;
-          places.emplace_back(Eigen::Vector3d(i, j, k) + 0.5 * Eigen::Vector3d::Unit(axis));
+          add_face(Eigen::Vector3d(i, j, k) + 0.5 * Eigen::Vector3d::Unit(axis), axis, along, places);
         }
       }
     }

@@ -35,6 +35,22 @@ void require_faces(Eigen::Index count) {
                                             "smaller voxels, or leave the part out");
 }
 
+/// The border of a mask. A part of one voxel's thickness is thinner than the middles of its faces are apart, and comes
+/// out in pieces: its faces have several points each, as many as the control points that are asked for can follow.
+PointCloud border_to_follow(const Volume& mask, Index vertices) {
+  constexpr double kThin = 1.5;    // faces a voxel; a plate of one voxel's thickness has more than two
+  constexpr double kPoints = 2.0;  // a control point
+  constexpr Index kLeast = 2;      // along a side
+  constexpr Index kMost = 8;
+  PointCloud border = mask_border(mask);
+  const auto faces = static_cast<double>(border.points.rows());
+  const auto voxels = static_cast<double>(std::count(mask.values.begin(), mask.values.end(), 1.0F));
+  require_faces(border.points.rows());
+  if (faces < kThin * voxels) return border;
+  const auto along = static_cast<Index>(std::ceil(std::sqrt(kPoints * vertices / faces)));
+  return mask_border(mask, std::clamp(along, kLeast, kMost));
+}
+
 /// The rounds: fairness falls until the surface is near enough. Returns that of the last step.
 double draw_to_border(SurfaceFitter& fitter, GuardedSteps& steps, double wanted, const Progress& progress) {
   constexpr int kMostRounds = 24;
@@ -67,8 +83,7 @@ double draw_to_border(SurfaceFitter& fitter, GuardedSteps& steps, double wanted,
 
 Segmentation segment_mask(const Volume& mask, const SegmentOptions& options, const Progress& progress) {
   require_options(options);
-  const PointCloud border = mask_border(mask);
-  require_faces(border.points.rows());
+  const PointCloud border = border_to_follow(mask, options.vertices);
   FirstMeshOptions first;
   first.faces = options.scheme.kind == SchemeKind::Loop ? FaceKind::Triangles : FaceKind::Quads;
   first.vertices = options.vertices;
@@ -84,6 +99,7 @@ Segmentation segment_mask(const Volume& mask, const SegmentOptions& options, con
   result.dropped_parts = start.dropped_parts;
   const double voxel = std::cbrt(mask.grid.voxel_volume());
   result.fairness = draw_to_border(fitter, steps, options.smoothing * voxel, progress_within(progress, 0.5, 1.0));
+  if (steps.meetings() > 0) steps.mend();
   result.rounds = steps.taken();
   result.cut_steps = steps.cut();
   result.border_rms = rms_of(fitter.distances());

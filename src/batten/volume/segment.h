@@ -41,6 +41,7 @@ struct Segmentation {
 /// over mask_border() (fit/first_mesh.h) is drawn to it (fit/surface_fitter.h) while fairness falls, until the
 /// distances are as small as the smoothing asks, or half the fairness no longer makes them smaller by 4 %. A step after
 /// which triangles of the surface meet is taken back, and the next one is less fair; after four such the rounds end.
+/// A part of one voxel's thickness (1.5 outer faces a voxel or more) has several points a face.
 /// Thousands of voxels take a second. Throws Error: what first_mesh() throws; BadArgument.
 Segmentation segment_mask(const Volume& mask, const SegmentOptions& options = {}, const Progress& progress = {});
 

@@ -17,8 +17,8 @@ struct FilledSlice {
 class SliceInterval {
  public:
   /// Between slices[above - 1] and slices[above], where these are there: above is 0 to as many as there are. slices:
-  /// two at least, which must outlive this.
-  SliceInterval(const std::vector<FilledSlice>& slices, std::ptrdiff_t above);
+  /// two at least, on a grid of one layer; they must outlive this.
+  SliceInterval(const VolumeGrid& plane, const std::vector<FilledSlice>& slices, std::ptrdiff_t above);
 
   /// Less than 0 inside. place: of the slices' grid.
   double value(double level, std::ptrdiff_t place) const;
@@ -29,7 +29,15 @@ class SliceInterval {
     std::vector<std::size_t> below;
     std::vector<std::size_t> above;
   };
-  /// Over a region that no region of the other slice overlaps.
+  /// Regions that do not overlap, of a thin part that moves by more than its width.
+  struct Passage {
+    const SliceRegion* below;
+    const SliceRegion* above;
+    Eigen::Vector2d way;  ///< from one centre to the other, in cells
+
+    double value(const VolumeGrid& plane, double up, std::ptrdiff_t place) const;
+  };
+  /// Over a region that goes on nowhere in the other slice.
   struct Cap {
     const SliceRegion* region;
     double height;  ///< a share of the way to the next slice
@@ -40,14 +48,17 @@ class SliceInterval {
   static std::vector<Bridge> bridges_between(const std::vector<SliceRegion>& below,
                                              const std::vector<SliceRegion>& above);
   static Cap cap_of(const SliceRegion& region, const FilledSlice* inner);
+  void add_passages(std::vector<const SliceRegion*>& below, std::vector<const SliceRegion*>& above);
   double bridge_value(const Bridge& bridge, double up, std::ptrdiff_t place) const;
 
+  const VolumeGrid& plane_;
   const FilledSlice* above_ = nullptr;
   const FilledSlice* below_ = nullptr;
   const FilledSlice* further_up_ = nullptr;
   const FilledSlice* further_down_ = nullptr;
   double height_ = 0.0;
   std::vector<Bridge> bridges_;
+  std::vector<Passage> passages_;
   std::vector<Cap> caps_below_;
   std::vector<Cap> caps_above_;
 };

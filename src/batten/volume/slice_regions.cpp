@@ -111,7 +111,15 @@ std::vector<SliceRegion> slice_regions(const VolumeGrid& grid, const VoxelFlags&
       continue;
     SliceRegion region;
     region.inside.resize(inside.size());
-    for (std::size_t n = 0; n < inside.size(); ++n) region.inside[n] = marks[n] == mark ? 1 : 0;
+    Index count = 0;
+    for (std::size_t n = 0; n < inside.size(); ++n) {
+      region.inside[n] = marks[n] == mark ? 1 : 0;
+      if (marks[n] != mark) continue;
+      const auto place = static_cast<Index>(n);
+      region.centre += Eigen::Vector2d(place % grid.size[0], place / grid.size[0]);
+      ++count;
+    }
+    region.centre /= count;
     region.distances = signed_distances(grid, region.inside);
     region.depth = -*std::min_element(region.distances.begin(), region.distances.end());
     regions.push_back(std::move(region));

@@ -1,5 +1,6 @@
 /// \file The regions that points in a plane enclose.
 #pragma once
+#include <Eigen/Core>
 #include <vector>
 
 #include "batten/types.h"
@@ -10,8 +11,9 @@ namespace batten {
 /// A region of a plane whose places are joined to each other.
 struct SliceRegion {
   VoxelFlags inside;
-  Buffer<float> distances;  ///< mm, to its border: less than 0 inside
-  double depth = 0.0;       ///< the greatest distance inside
+  Buffer<float> distances;                           ///< mm, to its border: less than 0 inside
+  double depth = 0.0;                                ///< the greatest distance inside
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();  ///< the mean of its places, in cells
 };
 
 /// Distances along contours between neighbouring points, in some planes: from each point to the nearest one, and to the

@@ -95,7 +95,7 @@ Volume interpolated_slices(const PointSlices& slices, const VolumeGrid& plane, c
   mask.values.assign(static_cast<std::size_t>(mask.grid.count()), 0.0F);
   std::vector<SliceInterval> intervals;
   for (std::ptrdiff_t above = 0; above <= static_cast<std::ptrdiff_t>(filled.size()); ++above)
-    intervals.emplace_back(filled, above);
+    intervals.emplace_back(plane, filled, above);
   const std::array<Index, 3> size = mask.grid.size;
   const double lowest = (slices.axes.transpose() * mask.grid.origin)[2];
   const auto fill = [&](Index k) {
