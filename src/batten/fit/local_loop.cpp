@@ -8,11 +8,8 @@ namespace batten {
 
 namespace {
 
-Index next_in_face(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
-Index last_in_face(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
-
 /// to += weight * from.
-void add_scaled(double weight, const LocalValues& from, LocalValues& to) {
+void add_weighted(double weight, const LocalValues& from, LocalValues& to) {
   for (std::size_t c = 0; c < from.size(); ++c) to[c] += weight * from[c];
 }
 
@@ -55,10 +52,10 @@ LocalLoop::LocalLoop() {
 LocalLoop::Ring LocalLoop::ring_of(const Level& level, Index vertex) const {
   Ring ring;
   const auto take = [&](Index neighbour, bool sharp) {
-    add_scaled(1.0, level.values[neighbour], ring.all);
+    add_weighted(1.0, level.values[neighbour], ring.all);
     ++ring.count;
     if (!sharp) return;
-    add_scaled(1.0, level.values[neighbour], ring.sharp);
+    add_weighted(1.0, level.values[neighbour], ring.sharp);
     ++ring.sharp_count;
   };
   const auto end_of = [&](Index h) { return level.faces[next_in_face(h) / 3][next_in_face(h) % 3]; };
@@ -86,14 +83,14 @@ LocalValues LocalLoop::moved_vertex(const Level& level, Index vertex, bool limit
   if (ring.sharp_count > 2) return level.values[vertex];
   LocalValues value{};
   if (ring.sharp_count == 2) {
-    add_scaled(limit ? 2.0 / 3.0 : 0.75, level.values[vertex], value);
-    add_scaled(limit ? 1.0 / 6.0 : 0.125, ring.sharp, value);
+    add_weighted(limit ? 2.0 / 3.0 : 0.75, level.values[vertex], value);
+    add_weighted(limit ? 1.0 / 6.0 : 0.125, ring.sharp, value);
     return value;
   }
   const int valence = std::clamp(ring.count, 3, kMostValence);
   const double own = (limit ? limit_weights_ : vertex_weights_)[valence];
-  add_scaled(own, level.values[vertex], value);
-  add_scaled((1.0 - own) / ring.count, ring.all, value);
+  add_weighted(own, level.values[vertex], value);
+  add_weighted((1.0 - own) / ring.count, ring.all, value);
   return value;
 }
 
@@ -113,11 +110,11 @@ void LocalLoop::refine_level(const Level& from, Level& to) {
     const auto corner = [&](Index of) -> const LocalValues& { return from.values[from.faces[of / 3][of % 3]]; };
     LocalValues value{};
     const bool sharp = twin < 0 || from.sharp[h] != 0;
-    add_scaled(sharp ? 0.5 : 0.375, corner(h), value);
-    add_scaled(sharp ? 0.5 : 0.375, corner(next_in_face(h)), value);
+    add_weighted(sharp ? 0.5 : 0.375, corner(h), value);
+    add_weighted(sharp ? 0.5 : 0.375, corner(next_in_face(h)), value);
     if (!sharp) {
-      add_scaled(0.125, corner(last_in_face(h)), value);
-      add_scaled(0.125, corner(last_in_face(twin)), value);
+      add_weighted(0.125, corner(last_in_face(h)), value);
+      add_weighted(0.125, corner(last_in_face(twin)), value);
     }
     to.values[edges_[h]] = value;
   }

@@ -24,6 +24,9 @@ struct LocalFaces {
   Index asked = 0;
 };
 
+inline Index next_in_face(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
+inline Index last_in_face(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
+
 /// The half-edge across each one, -1 where there is none, by sorting in `work`.
 void find_twins(const std::vector<std::array<Index, 3>>& faces, std::vector<Index>& twins,
                 std::vector<std::array<Index, 3>>& work);

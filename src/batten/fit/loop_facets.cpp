@@ -10,9 +10,6 @@ constexpr int kCornerBits = 5;
 constexpr std::size_t kMostAround = 20;  ///< edges at a corner whose surroundings have a key
 constexpr int kChannels = 3 + kMostFree;
 
-Index following(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
-Index preceding(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
-
 /// A face with all triangles around it, laid out so that nothing meets itself beyond them; vertices are numbered as
 /// FacetStencils::Weights lists control points.
 class LaidOutRing {
@@ -188,11 +185,11 @@ void LoopFacets::walk(const LocalFaces& control, Index face, int corner) {
   const auto start = static_cast<Index>(3 * face + corner);
   const auto is_sharp = [&](Index h) { return static_cast<std::uint8_t>(sharp_[h] != 0 || twins_[h] < 0 ? 1 : 0); };
   const auto origin = [&](Index h) { return control.faces[static_cast<std::size_t>(h / 3)][h % 3]; };
-  ring.sharp.assign({is_sharp(start), is_sharp(preceding(start))});
-  Index h = twins_[preceding(start)];
-  for (; h >= 0 && h != start; h = twins_[preceding(h)]) {
-    onward.push_back(origin(preceding(h)));
-    ring.sharp.push_back(is_sharp(preceding(h)));
+  ring.sharp.assign({is_sharp(start), is_sharp(last_in_face(start))});
+  Index h = twins_[last_in_face(start)];
+  for (; h >= 0 && h != start; h = twins_[last_in_face(h)]) {
+    onward.push_back(origin(last_in_face(h)));
+    ring.sharp.push_back(is_sharp(last_in_face(h)));
   }
   ring.open = h < 0;
   if (!ring.open) {
@@ -200,9 +197,9 @@ void LoopFacets::walk(const LocalFaces& control, Index face, int corner) {
     onward.pop_back();
     ring.sharp.pop_back();
   } else {
-    for (Index twin = twins_[start]; twin >= 0; twin = twins_[following(twin)]) {
-      back.push_back(origin(preceding(twin)));
-      ring.sharp.push_back(is_sharp(following(twin)));
+    for (Index twin = twins_[start]; twin >= 0; twin = twins_[next_in_face(twin)]) {
+      back.push_back(origin(last_in_face(twin)));
+      ring.sharp.push_back(is_sharp(next_in_face(twin)));
     }
   }
   ring.onward = static_cast<int>(onward.size());
@@ -215,7 +212,7 @@ void LoopFacets::name_columns(const LocalFaces& control, Index face) {
   columns_.assign(own.begin(), own.end());
   for (int side = 0; side < 3; ++side) {
     const Index twin = twins_[3 * static_cast<std::size_t>(face) + side];
-    columns_.push_back(twin < 0 ? -1 : control.faces[static_cast<std::size_t>(twin / 3)][preceding(twin) % 3]);
+    columns_.push_back(twin < 0 ? -1 : control.faces[static_cast<std::size_t>(twin / 3)][last_in_face(twin) % 3]);
   }
   for (std::size_t c = 0; c < 3; ++c) {
     const bool closes = !ring_.corners[c].open;
