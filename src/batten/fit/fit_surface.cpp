@@ -14,10 +14,12 @@
 #include "batten/fit/fit_distances.h"
 #include "batten/fit/fit_levels.h"
 #include "batten/fit/outliers.h"
+#include "batten/fit/own_frame.h"
 #include "batten/fit/surface_fitter.h"
 #include "batten/fit/thin_cloud.h"
 #include "batten/mesh/checked_values.h"
 #include "batten/mesh/measures.h"
+#include "batten/nearest/distance_summary.h"
 #include "batten/solve/solver.h"
 
 namespace batten {
@@ -57,12 +59,28 @@ void require_options(const PointCloud& cloud, const FitOptions& options) {
   if (options.initial) require_start_near(options.initial->points, cloud.points);
 }
 
-/// The points that the rounds work with: in the order of their coordinates, so that the order in which they are given
-/// changes no bit, and one at each place.
+/// The points that the rounds work with: one at each place, in an order that depends on their places alone, so that the
+/// order in which they are given changes no bit.
 struct WorkingCloud {
+  OwnFrame frame;
+  Points placed;         ///< all points in the frame; none where it is the frame of the points
   Buffer<Index> places;  ///< of each point of the whole cloud, here; -1 for those that are left out
   PointCloud cloud;
 };
+
+/// Of the points of different places.
+Points sorted_places(const Points& points) {
+  const Buffer<Index> sorted = sorted_rows(points);
+  std::vector<Index> rows;
+  for (const Index row : sorted) {
+    if (rows.empty() || points.row(row) != points.row(rows.back())) rows.push_back(row);
+  }
+  return points(rows, Eigen::all);
+}
+
+/// A fit that finds its first mesh works in a frame that the points give, with coordinates that are cut off where a
+/// motion of the points would round them.
+bool has_own_frame(const FitOptions& options) { return !options.initial && options.start == FitStart::Auto; }
 
 WorkingCloud working_cloud(const PointCloud& cloud, const FitOptions& options) {
   // Moves of a Loop mesh ask for all that is known of thin parts.
@@ -71,19 +89,92 @@ WorkingCloud working_cloud(const PointCloud& cloud, const FitOptions& options) {
   const Index start = options.initial ? options.initial->vertex_count() : 0;
   const Index vertices = std::max(start, options.vertices.value_or(kUsualFitVertices));
   const Index most = std::max(least, kOfVertex * std::min(vertices, std::numeric_limits<Index>::max() / kOfVertex));
-  const Buffer<Index> thin = thinned_rows(cloud.points, most);
   WorkingCloud working;
-  const Points normals = cloud.normals.rows() > 0 ? Points(cloud.normals(thin, Eigen::all)) : Points(0, 3);
+  const bool own = has_own_frame(options);
+  if (own) {
+    working.frame = own_frame(cloud.points.rows() > most ? cloud.points : sorted_places(cloud.points));
+    working.placed = working.frame.into(cloud.points);
+  }
+  const Points& all = own ? working.placed : cloud.points;
+  const Buffer<Index> thin = thinned_rows(all, most);
+  Points points = all(thin, Eigen::all);
+  Points normals = cloud.normals.rows() > 0 ? Points(cloud.normals(thin, Eigen::all)) : Points(0, 3);
+  if (own) {
+    drop_rounding(points);
+    normals = working.frame.turned(normals);
+    drop_rounding(normals);
+  }
   working.places.assign(static_cast<std::size_t>(cloud.points.rows()), -1);
   Buffer<Index> rows;
-  for (const Index place : sorted_rows(cloud.points(thin, Eigen::all), normals)) {
-    const Index row = thin[place];
-    if (rows.empty() || cloud.points.row(row) != cloud.points.row(rows.back())) rows.push_back(row);
-    working.places[row] = static_cast<Index>(rows.size()) - 1;
+  for (const Index row : sorted_rows(points, normals)) {
+    if (rows.empty() || points.row(row) != points.row(rows.back())) rows.push_back(row);
+    working.places[thin[row]] = static_cast<Index>(rows.size()) - 1;
   }
-  working.cloud.points = cloud.points(rows, Eigen::all);
-  if (cloud.normals.rows() > 0) working.cloud.normals = cloud.normals(rows, Eigen::all);
+  working.cloud.points = points(rows, Eigen::all);
+  if (normals.rows() > 0) working.cloud.normals = normals(rows, Eigen::all);
   return working;
+}
+
+/// The options as they are in a frame.
+FitOptions in_frame(const FitOptions& options, const OwnFrame& frame) {
+  FitOptions placed = options;
+  placed.tolerance /= frame.size;
+  if (placed.bridge) *placed.bridge /= frame.size;
+  if (options.watch) {
+    placed.watch = [watch = options.watch, frame](const SurfaceFrame& shown) {
+      watch({shown.topology, shown.scheme, frame.back(shown.control)});
+    };
+  }
+  return placed;
+}
+
+void scale_rounds(double size, FitReport& report) {
+  for (FitRound& round : report.rounds) {
+    round.max *= size;
+    round.rms *= size;
+    round.objective *= size * size;
+    round.after *= size * size;
+  }
+}
+
+DistanceSummary scaled(double size, DistanceSummary summary) {
+  for (double* const length : {&summary.max, &summary.rms, &summary.mean, &summary.median, &summary.most_of_95,
+                               &summary.most_of_99, &summary.most_outside, &summary.most_inside})
+    *length *= size;
+  return summary;
+}
+
+/// What a fit in a frame has reached, in the unit of the points.
+FitResult result_of(const PointCloud& cloud, const WorkingCloud& working, const OutlierFilter& filter,
+                    FitAttempt made) {
+  const SurfaceFitter& fitter = made.fitter;
+  const double size = working.frame.size;
+  const bool own = working.placed.rows() > 0;
+  const Points& all = own ? working.placed : cloud.points;
+  FitReport report = std::move(made.report);
+  const bool thinned = std::count(working.places.begin(), working.places.end(), -1) > 0;
+  Scalars distances(cloud.points.rows());
+  Buffer<std::uint8_t> outliers(static_cast<std::size_t>(cloud.points.rows()));
+  report.spacing = filter.spacing();
+  if (own || thinned) distances = measure_to_surface(fitter, all);
+  if (thinned) {
+    report.spacing = sampled_spacing(all, filter.spacing());
+    outliers = filter.far_of(all, distances, fitter.distances(), report.spacing);
+  }
+  for (std::size_t row = 0; row < working.places.size(); ++row) {
+    if (working.places[row] < 0) continue;
+    if (!own) distances[static_cast<Eigen::Index>(row)] = fitter.distances()[working.places[row]];
+    outliers[row] = made.outliers[working.places[row]];
+  }
+  distances *= size;
+  report.spacing *= size;
+  report.to_surface = summarize_followed(distances, outliers, report.outliers);
+  report.to_points = scaled(size, measure_to_points(fitter));
+  report.unsound = fitter.unsound_faces();
+  scale_rounds(size, report);
+  const Points control = own ? working.frame.back(fitter.control()) : Points(fitter.control());
+  Mesh mesh = frame_mesh({fitter.topology(), fitter.scheme(), control});
+  return {std::move(mesh), fitter.topology(), fitter.scheme(), std::move(distances), std::move(report)};
 }
 
 }  // namespace
@@ -91,38 +182,22 @@ WorkingCloud working_cloud(const PointCloud& cloud, const FitOptions& options) {
 FitResult fit_surface(const PointCloud& cloud, const FitOptions& options, const Progress& progress) {
   const Stopwatch watch;
   require_options(cloud, options);
-  FitReport report;
-  report.diameter = 2.0 * enclosing_sphere(cloud.points).radius;
+  const double diameter = 2.0 * enclosing_sphere(cloud.points).radius;
   if (bounding_diagonal(cloud.points) == 0.0) throw Error(ErrorCode::BadArgument, "all points are at the same place");
-  if (!(report.diameter > 0.0) || !std::isfinite(report.diameter))
+  if (!(diameter > 0.0) || !std::isfinite(diameter))
     throw Error(ErrorCode::BadArgument,
                 "squares of distances between the points are too large or too small for doubles; scale the points");
   const WorkingCloud working = working_cloud(cloud, options);
-  const PointCloud& known = working.cloud;
-  const OutlierFilter filter(known.points, progress_within(progress, 0.0, 0.02));
-  FitAttempt made = make_fit(known, options, filter, report.diameter, progress_within(progress, 0.02, 1.0));
-  SurfaceFitter& fitter = made.fitter;
-  const Buffer<std::uint8_t>& left_out = made.outliers;
-  report = std::move(made.report);
-  Scalars distances(cloud.points.rows());
-  Buffer<std::uint8_t> outliers(static_cast<std::size_t>(cloud.points.rows()));
-  report.spacing = filter.spacing();
-  if (std::count(working.places.begin(), working.places.end(), -1) > 0) {
-    distances = measure_to_surface(fitter, cloud.points);
-    report.spacing = sampled_spacing(cloud.points, filter.spacing());
-    outliers = filter.far_of(cloud.points, distances, fitter.distances(), report.spacing);
-  }
-  for (std::size_t row = 0; row < working.places.size(); ++row) {
-    if (working.places[row] < 0) continue;
-    distances[static_cast<Eigen::Index>(row)] = fitter.distances()[working.places[row]];
-    outliers[row] = left_out[working.places[row]];
-  }
-  report.to_surface = summarize_followed(distances, outliers, report.outliers);
-  report.to_points = measure_to_points(fitter);
-  report.unsound = fitter.unsound_faces();
-  report.seconds = watch.seconds();
-  Mesh mesh = frame_mesh({fitter.topology(), fitter.scheme(), fitter.control()});
-  return {std::move(mesh), fitter.topology(), fitter.scheme(), std::move(distances), std::move(report)};
+  const bool own = has_own_frame(options);
+  const FitOptions placed = own ? in_frame(options, working.frame) : options;
+  const OutlierFilter filter(working.cloud.points, progress_within(progress, 0.0, 0.02));
+  const double working_diameter = own ? 2.0 * enclosing_sphere(working.cloud.points).radius : diameter;
+  FitResult result =
+      result_of(cloud, working, filter,
+                make_fit(working.cloud, placed, filter, working_diameter, progress_within(progress, 0.02, 1.0)));
+  result.report.diameter = diameter;
+  result.report.seconds = watch.seconds();
+  return result;
 }
 
 }  // namespace batten
