@@ -1,11 +1,14 @@
 #include "batten/fit/fit_attempt.h"
 
+#include <array>
+#include <cmath>
 #include <memory>
 #include <utility>
 
 #include "batten/error.h"
 #include "batten/fit/dynamic_fit.h"
 #include "batten/fit/fit_beginning.h"
+#include "batten/fit/fit_levels.h"
 #include "batten/fit/fit_run.h"
 #include "batten/fit/followed_cloud.h"
 
@@ -50,6 +53,8 @@ class Attempt {
     if (is_cancelled()) run_->settle();
     run_->show();
     made_->outliers = run_->outliers();
+    made_->rms = run_->rms();
+    made_->evened_out = run_->evened_out();
     return std::move(*made_);
   }
 
@@ -150,6 +155,36 @@ FitAttempt best_attempt(const FitTask& task, const FollowedCloud& points, const 
   return attempt.finish(options.watch, progress_within(progress, kApproached, 1.0));
 }
 
+/// Which control points get stuck and fold is chance, and another first mesh another draw. Of those whose surfaces are
+/// sound the nearest to the points.
+FitAttempt best_draw(const FitTask& task, const FollowedCloud& points, const Progress& progress) {
+  constexpr std::array<double, 2> kShares{0.97, 0.94};
+  const FitOptions& options = task.options;
+  FitAttempt made = best_attempt(task, points, progress_within(progress, 0.0, 0.5));
+  const bool found = !options.initial && options.start != FitStart::Sphere;
+  FitOptions trial = options;
+  trial.watch = {};
+  try {
+    bool again = found && made.evened_out && made.report.end != FitEnd::Cancelled;
+    bool other = false;
+    for (std::size_t i = 0; i < kShares.size() && again; ++i) {
+      const double share = 0.5 + 0.25 * static_cast<double>(i);
+      trial.vertices = static_cast<Index>(std::lround(kShares[i] * options.vertices.value_or(kUsualFitVertices)));
+      FitAttempt next = best_attempt({task.cloud, trial, task.filter, task.diameter}, points,
+                                     progress_within(progress, share, share + 0.25));
+      if (next.report.end == FitEnd::Cancelled) break;
+      again = next.evened_out;
+      if (!(next.rms < made.rms)) continue;
+      made = std::move(next);
+      other = true;
+    }
+    if (other && options.watch) options.watch({made.fitter.topology(), made.fitter.scheme(), made.fitter.control()});
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::Cancelled) throw;
+  }
+  return made;
+}
+
 /// By springs.
 FitAttempt drawn_by_springs(const FitTask& task, const FollowedCloud& points, const Progress& progress) {
   const FitBeginning start = find_beginning(points.followed(), task.filter.spacing(), task.options, LoopStart::Moved,
@@ -181,7 +216,7 @@ FitAttempt make_fit(const PointCloud& cloud, const FitOptions& options, const Ou
   try {
     if (search) find_outliers(task, smooth, points, attempt, progress_within(progress, 0.05, searched));
     if (attempt == nullptr || !attempt->is_cancelled())
-      return best_attempt(task, points, progress_within(progress, searched, 1.0));
+      return best_draw(task, points, progress_within(progress, searched, 1.0));
   } catch (const Error& error) {
     if (error.code() != ErrorCode::Cancelled || attempt == nullptr) throw;
     attempt->cancel();

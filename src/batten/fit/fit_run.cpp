@@ -118,6 +118,17 @@ void FitRun::mend() {
   }
 }
 
+/// Evens the surface out where it is still not sound; false where there is nothing to do.
+bool FitRun::even_out() {
+  constexpr int kRounds = 20;
+  if (!has_unsound_beyond(allowed_)) return false;
+  evened_out_ = true;
+  for (int round = 0; round < kRounds && has_unsound_beyond(allowed_); ++round) fitter_.even_out_unsound();
+  fitter_.attach();
+  note_passed();
+  return true;
+}
+
 /// Goes back to the best surface of this control mesh; false if that is the last one.
 bool FitRun::return_to_best() {
   const PassedSurfaces::Surface* const best = passed_.best(fitter_);
@@ -134,13 +145,14 @@ Index FitRun::next_count() const { return refined_vertex_count(fitter_.topology(
 /// back from that it would often stay where it is. Rounds that start from the best whole surface then keep it so.
 void FitRun::finish_level(bool last, const Progress& progress) {
   mend();
-  if (settled_) {
+  bool again = return_to_best() && !settled_;
+  if (last && even_out()) {
+    schedule_.note_restart(measured());
+    again = true;
+  }
+  if (again && last && report_.end != FitEnd::Tolerance) {
+    go_rounds(Soundness::Whole, progress_within(progress, 0.0, 0.4));
     return_to_best();
-  } else {
-    if (return_to_best() && last && report_.end != FitEnd::Tolerance) {
-      go_rounds(Soundness::Whole, progress_within(progress, 0.0, 0.4));
-      return_to_best();
-    }
   }
   if (last && report_.end == FitEnd::Budget) lower_worst(progress_within(progress, 0.4, 1.0));
 }

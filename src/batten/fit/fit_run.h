@@ -63,6 +63,8 @@ class FitRun {
   const Buffer<std::uint8_t>& outliers() const { return outliers_; }
   /// Of the points that are no outliers, as a share of the diameter.
   double rms() const { return measured().rms; }
+  /// True where the surface had to be made sound at the cost of distances.
+  bool evened_out() const { return evened_out_; }
   /// Shows the surface to the options' watcher.
   void show() const;
   /// Whom to show it from now on.
@@ -74,6 +76,7 @@ class FitRun {
   bool has_unsound_beyond(Index most) const;
   void note_passed();
   void mend();
+  bool even_out();
   bool return_to_best();
   Index next_count() const;
   void finish_level(bool last, const Progress& progress);
@@ -94,6 +97,7 @@ class FitRun {
   Scalars belonging_;              ///< of each point to the surface
   Buffer<std::uint8_t> outliers_;  ///< one flag a point, of those that rather do not belong
   FitSchedule schedule_;
+  bool evened_out_ = false;
   /// So many unsound faces are as good as none: any number where a mesh that was given has some, since the shape it
   /// follows may pass through itself too.
   Index allowed_;

@@ -14,8 +14,8 @@ namespace batten {
 Mesh simplified(const Mesh& mesh, Index vertices, const Progress& progress = {});
 
 /// Planes that a mesh shall lie in, one a sample: N-by-3 points, normals of length 1, and the area of each. A plane
-/// counts at the twelve nearest vertices within `reach` of its sample, so that those beside an edge or a corner know all
-/// of its sides.
+/// counts at the twelve nearest vertices within `reach` of its sample, so that those beside an edge or a corner know
+/// all of its sides.
 struct SamplePlanes {
   const Points& points;
   const Points& normals;

@@ -174,20 +174,19 @@ Values kept_sound(FitLevel& level, const Values& control, const Values& step, So
   return control;
 }
 
-/// Where a control point inside the surface relaxes to: the mean of its neighbours, on a sharp line that of the two on
-/// the line. None at the ends and crossings of lines.
+/// Where a control point inside the surface relaxes to: the mean of its neighbours, on sharp lines that of those on the
+/// lines.
 struct RelaxedPlace {
   Eigen::RowVector3d mean = Eigen::RowVector3d::Zero();
-  Eigen::RowVector3d line = Eigen::RowVector3d::Zero();  ///< from one of the two on the line to the other
-  bool on_line = false;
+  Eigen::RowVector3d line = Eigen::RowVector3d::Zero();  ///< where one line passes, from one of the two to the other
+  Index sharp = 0;                                       ///< neighbours on lines
 };
 std::optional<RelaxedPlace> relaxed_place(const Topology& topology, const Values& control, Index v) {
-  if (topology.is_boundary_vertex(v) || topology.vertex_sharpness(v) > 0.0F) return std::nullopt;
+  if (topology.is_boundary_vertex(v)) return std::nullopt;
   Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
   Eigen::RowVector3d sharp_sum = Eigen::RowVector3d::Zero();
   RelaxedPlace result;
   Index count = 0;
-  Index sharp = 0;
   topology.for_each_outgoing(v, [&](Index h) {
     const Eigen::RowVector3d neighbour = control.row(topology.destination(h));
     sum += neighbour;
@@ -195,15 +194,15 @@ std::optional<RelaxedPlace> relaxed_place(const Topology& topology, const Values
     if (!(topology.edge_sharpness(topology.edge(h)) > 0.0F)) return;
     sharp_sum += neighbour;
     result.line = neighbour - result.line;
-    ++sharp;
+    ++result.sharp;
   });
-  if (sharp != 0 && sharp != 2) return std::nullopt;
-  result.on_line = sharp == 2;
-  result.mean = result.on_line ? Eigen::RowVector3d(sharp_sum / 2.0) : Eigen::RowVector3d(sum / count);
+  const bool ends = result.sharp < 2;
+  result.mean = (ends ? sum : sharp_sum) / static_cast<double>(ends ? count : result.sharp);
   return result;
 }
 
-/// Inner control points that are held, moved along the surface, or along their sharp line, towards where they relax to.
+/// Inner control points that are held, moved along the surface, or along their sharp line, towards where they relax to;
+/// those at the ends and crossings of lines stay.
 Values relaxed_along(const FitLevel& level, const Scheme& scheme, Values control) {
   constexpr int kSweeps = 2;
   constexpr double kPart = 0.5;
@@ -214,11 +213,11 @@ Values relaxed_along(const FitLevel& level, const Scheme& scheme, Values control
     for (Index v = 0; v < topology.vertex_count(); ++v) {
       if (level.held[v] == 0) continue;
       const std::optional<RelaxedPlace> place = relaxed_place(topology, before, v);
-      if (!place) continue;
+      if (!place || topology.vertex_sharpness(v) > 0.0F) continue;
       const Eigen::RowVector3d move = kPart * (place->mean - before.row(v));
-      if (!place->on_line) {
+      if (place->sharp == 0) {
         control.row(v) += move - move.dot(normals.row(v)) * normals.row(v);
-      } else if (place->line.squaredNorm() > 0.0) {
+      } else if (place->sharp == 2 && place->line.squaredNorm() > 0.0) {
         control.row(v) += move.dot(place->line) / place->line.squaredNorm() * place->line;
       }
     }
@@ -334,6 +333,7 @@ void SurfaceFitter::set_cloud(PointCloud cloud) {
 
 SurfaceFitter::~SurfaceFitter() = default;
 SurfaceFitter::SurfaceFitter(SurfaceFitter&&) noexcept = default;
+SurfaceFitter& SurfaceFitter::operator=(SurfaceFitter&&) noexcept = default;
 
 const Topology& SurfaceFitter::topology() const { return parts_->level->topology; }
 const Scheme& SurfaceFitter::scheme() const { return parts_->scheme; }
@@ -425,6 +425,25 @@ bool SurfaceFitter::relax(Soundness asked) {
 Index SurfaceFitter::unsound_faces() const { return unsound_faces(parts_->control); }
 
 Index SurfaceFitter::unsound_faces(const Values& control) const { return parts_->level->unsound_count(control); }
+
+void SurfaceFitter::even_out_unsound() {
+  constexpr double kPart = 0.5;
+  FitLevel& level = *parts_->level;
+  const Topology& topology = level.topology;
+  const Buffer<std::uint8_t> flags = level.flags_of(parts_->control, Soundness::Whole);
+  Buffer<std::uint8_t> corners(level.held.size(), 0);
+  for (Index f = 0; f < static_cast<Index>(flags.size()); ++f) {
+    if (flags[f] == 0) continue;
+    for (Index h = topology.face_begin(f); h < topology.face_end(f); ++h) corners[topology.origin(h)] = 1;
+  }
+  Values control = parts_->control;
+  for (Index v = 0; v < topology.vertex_count(); ++v) {
+    if (corners[v] == 0) continue;
+    if (const std::optional<RelaxedPlace> place = relaxed_place(topology, parts_->control, v))
+      control.row(v) += kPart * (place->mean - control.row(v));
+  }
+  move_to(control);
+}
 
 Index SurfaceFitter::hold_unsound() {
   FitLevel& level = *parts_->level;

@@ -37,6 +37,7 @@ class SurfaceFitter {
                 const Progress& progress = {});
   ~SurfaceFitter();
   SurfaceFitter(SurfaceFitter&&) noexcept;
+  SurfaceFitter& operator=(SurfaceFitter&&) noexcept;
 
   const Topology& topology() const;
   const Scheme& scheme() const;
@@ -82,6 +83,9 @@ class SurfaceFitter {
   Index unsound_faces() const;
   /// The same where the control points were these, V-by-3.
   Index unsound_faces(const Values& control) const;
+  /// Moves the control points of these faces half of the way to the mean of their neighbours, on sharp lines of
+  /// those on the lines: off the points, where nothing else makes the surface sound.
+  void even_out_unsound();
   /// Holds the control points around these faces, so that relax() moves them; returns how many faces there are.
   Index hold_unsound();
 
