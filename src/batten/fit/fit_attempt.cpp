@@ -19,6 +19,8 @@ namespace {
 /// The part of the progress that a beginning and the first rounds take.
 constexpr double kBegun = 0.2;
 constexpr double kApproached = 0.6;
+/// That of the first of several draws, which is nearly always the only one.
+constexpr double kFirstDraw = 0.85;
 
 /// An attempt on its way.
 class Attempt {
@@ -117,9 +119,9 @@ FitAttempt better_attempt(const FitTask& task, const FollowedCloud& points, Atte
   const bool hidden = static_cast<bool>(options.watch);
   const Progress first = progress_within(progress, 0.0, 0.5);
   const Progress rest = progress_within(progress, 0.5, 1.0);
+  sharp.approach(kFewRounds, hidden, progress_within(first, 0.0, 0.2));
+  if (sharp.is_cancelled()) return sharp.finish(options.watch, rest);
   try {
-    sharp.approach(kFewRounds, hidden, progress_within(first, 0.0, 0.2));
-    if (sharp.is_cancelled()) return sharp.finish(options.watch, rest);
     const FitBeginning other = find_beginning(points.followed(), task.filter.spacing(), smooth_options,
                                               LoopStart::Moved, progress_within(first, 0.2, 0.3));
     Attempt smooth(other, points.all(), smooth_options, task.filter, task.diameter, progress_within(first, 0.3, 0.35));
@@ -160,21 +162,25 @@ FitAttempt best_attempt(const FitTask& task, const FollowedCloud& points, const 
 FitAttempt best_draw(const FitTask& task, const FollowedCloud& points, const Progress& progress) {
   constexpr std::array<double, 2> kShares{0.97, 0.94};
   const FitOptions& options = task.options;
-  FitAttempt made = best_attempt(task, points, progress_within(progress, 0.0, 0.5));
   const bool found = !options.initial && options.start != FitStart::Sphere;
+  const double first = found ? kFirstDraw : 1.0;
+  FitAttempt made = best_attempt(task, points, progress_within(progress, 0.0, first));
   FitOptions trial = options;
   trial.watch = {};
   try {
     bool again = found && made.evened_out && made.report.end != FitEnd::Cancelled;
     bool other = false;
     for (std::size_t i = 0; i < kShares.size() && again; ++i) {
-      const double share = 0.5 + 0.25 * static_cast<double>(i);
+      const auto share = [&](std::size_t drawn) {
+        return first + (1.0 - first) * static_cast<double>(drawn) / kShares.size();
+      };
       trial.vertices = static_cast<Index>(std::lround(kShares[i] * options.vertices.value_or(kUsualFitVertices)));
       FitAttempt next = best_attempt({task.cloud, trial, task.filter, task.diameter}, points,
-                                     progress_within(progress, share, share + 0.25));
+                                     progress_within(progress, share(i), share(i + 1)));
       if (next.report.end == FitEnd::Cancelled) break;
       again = next.evened_out;
-      if (!(next.rms < made.rms)) continue;
+      if (!(std::pair(next.fitter.unsound_faces(), next.rms) < std::pair(made.fitter.unsound_faces(), made.rms)))
+        continue;
       made = std::move(next);
       other = true;
     }
