@@ -208,6 +208,7 @@ class SphereCover {
     std::vector<NearestPoint> found(anchors_.size());
     nearest_.nearest(directions, found);
     std::vector<SurfacePlace> places;
+    places.reserve(found.size());
     for (const NearestPoint& point : found) places.push_back(point.place);
     const SurfaceWeights::Matrix rows = weights_.rows(places);
     equations_.assemble(rows, forms, offsets_);

@@ -179,11 +179,11 @@ SphereMap::SphereMap(const Mesh& mesh, const Progress& progress) : parts_(std::m
   const auto all = static_cast<double>(parts.points.rows());
   double count = all - static_cast<double>(removed.size());
   double next = kFirst;
-  for (auto it = removed.rbegin(); it != removed.rend(); ++it) {
-    parts.rings.restore(*it);
-    parts.place(it->vertex);
-    parts.relax(it->vertex);
-    for (const Index other : it->ring) parts.relax(other);
+  for (std::size_t i = removed.size(); i-- > 0;) {
+    parts.rings.restore(removed[i]);
+    parts.place(removed[i].vertex);
+    parts.relax(removed[i].vertex);
+    for (const Index other : removed[i].ring) parts.relax(other);
     if (++count < next) continue;
     report_progress(progress, count / all);
     next *= kGrowth;
