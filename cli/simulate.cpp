@@ -11,6 +11,7 @@
 
 #include "batten/error.h"
 #include "batten/io/io.h"
+#include "cli/files.h"
 #include "cli/picture.h"
 #include "cli/plots.h"
 #include "cli/signals.h"
