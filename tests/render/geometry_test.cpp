@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
+
 #include "batten/render/view.h"
 #include "render/pixels.h"
 
@@ -91,7 +94,7 @@ TEST(RenderGeometry, FlatMeshesAreSeenAlongTheirNormal) {
   Scene scene;
   scene.surface = grid(5, 3);
   const Eigen::Vector3d normal(2.0 / 7.0, -3.0 / 7.0, 6.0 / 7.0);
-  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal);
+  const Eigen::AngleAxisd turn(std::acos(6.0 / 7.0), Eigen::Vector3d(3.0, 2.0, 0.0).normalized());  // of z onto it
   scene.surface.points = (scene.surface.points * turn.toRotationMatrix().transpose()).eval();
   const auto direction = [&] {
     const std::array<double, 3> view = fit_viewpoint({&scene}, {}).direction;
