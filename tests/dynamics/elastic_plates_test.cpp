@@ -1,8 +1,6 @@
 /// Flat squares against the closed forms of membranes and plates.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -10,6 +8,7 @@
 #include "batten/dynamics/elastic_motion.h"
 #include "batten/mesh/primitives.h"
 #include "batten/surface/quadrature.h"
+#include "support/dense.h"
 #include "support/loads.h"
 #include "support/schemes.h"
 
@@ -32,8 +31,7 @@ ElasticSurface square(Index n, BoundaryRule boundary, double tension, double rig
 double lowest_frequency(const ElasticSurface& surface, const Eigen::MatrixXd& basis) {
   const Eigen::MatrixXd stiffness = basis.transpose() * surface.stiffness() * basis;
   const Eigen::MatrixXd mass = basis.transpose() * surface.mass() * basis;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, mass, Eigen::EigenvaluesOnly);
-  return std::sqrt(solver.eigenvalues()[0]);
+  return std::sqrt(test::least_eigenvalue(stiffness, mass));
 }
 
 /// Pins the edges of square(n, BoundaryRule::None): no height and, where `clamped`, no slope across them.
@@ -64,9 +62,7 @@ Eigen::MatrixXd left_free(const ElasticSurface& surface, const Supports& support
     rows.row(static_cast<Eigen::Index>(i)) =
         Eigen::MatrixXd(weights.rows({&supports.pins[i].place, 1}, supports.pins[i].part));
   }
-  Eigen::FullPivLU<Eigen::MatrixXd> factor(rows);
-  factor.setThreshold(1e-10);
-  return factor.kernel();
+  return test::kernel(rows, 1e-10);
 }
 
 /// The identity without the columns of boundary vertices.

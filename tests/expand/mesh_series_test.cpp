@@ -2,11 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
 #include "batten/refine/refinement.h"
+#include "support/dense.h"
 #include "support/shapes.h"
 
 namespace batten {
@@ -98,7 +97,7 @@ TEST(MeshSeries, TelescopesAsTheIterationOfInterpolationDoes) {
 
 TEST(MeshSeries, HasItsSpectrumBetweenZeroAndOne) {
   for_each_series([](const Mesh& /*mesh*/, const MeshSeries& series) {
-    const Eigen::VectorXcd spectrum = dense(series).eval().eigenvalues();
+    const Eigen::VectorXcd spectrum = test::eigenvalues(dense(series));
     EXPECT_GT(spectrum.real().minCoeff(), -1e-14);
     EXPECT_LT(spectrum.real().maxCoeff(), 1.0 + 1e-13);
     EXPECT_LT(spectrum.imag().cwiseAbs().maxCoeff(), 1e-7);  // defective ones split by the root of the rounding
@@ -116,9 +115,9 @@ TEST(MeshSeries, SmoothsEachModeByItsGain) {
       for (Index v = 0; v < count; ++v) root[v] = std::sqrt(series.weight(v));
       const Eigen::MatrixXd symmetric = root.asDiagonal() * dense(series) * root.cwiseInverse().asDiagonal();
       ASSERT_LT(largest(symmetric - symmetric.transpose()), 1e-13);
-      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric);
-      const Eigen::ArrayXd a = solver.eigenvalues();
-      const Values modes = root.cwiseInverse().asDiagonal() * solver.eigenvectors();
+      const test::SymmetricModes solved = test::symmetric_modes(symmetric);
+      const Eigen::ArrayXd a = solved.values;
+      const Values modes = root.cwiseInverse().asDiagonal() * solved.vectors;
       for (const int m : {0, 1, 2, 5}) {
         const Eigen::ArrayXd gain = (1.0 - (1.0 - a).pow(m + 1)).pow(4);
         EXPECT_LT(largest(series.smooth(modes, m, 4) - modes * gain.matrix().asDiagonal()), 1e-13);

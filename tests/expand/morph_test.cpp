@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "batten/error.h"
@@ -12,6 +11,7 @@
 #include "batten/refine/refinement.h"
 #include "batten/tessellate/surface_mesh.h"
 #include "io/io_test_tools.h"
+#include "support/dense.h"
 #include "support/shapes.h"
 
 namespace batten {
@@ -64,11 +64,11 @@ TEST(Morph, HasTheFactorOfEachMode) {
   Eigen::VectorXd root(mesh.vertex_count());
   for (Index v = 0; v < mesh.vertex_count(); ++v) root[v] = std::sqrt(ends.series.weight(v));
   const Eigen::MatrixXd symmetric = root.asDiagonal() * matrix * root.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(symmetric);
+  const test::SymmetricModes modes = test::symmetric_modes(symmetric);
   const MorphOptions options{2, 3, MorphOrder::LowLast};
   for (const Eigen::Index i : {Eigen::Index{0}, Eigen::Index{10}, Eigen::Index{30}, Eigen::Index{34}}) {
-    const double a = modes.eigenvalues()[i];
-    const Values mode = root.cwiseInverse().asDiagonal() * modes.eigenvectors().col(i);
+    const double a = modes.values[i];
+    const Values mode = root.cwiseInverse().asDiagonal() * modes.vectors.col(i);
     const Values zero = Values::Zero(mode.rows(), 1);
     const double gain = 1.0 - std::pow(1.0 - a, 3);
     const auto at = [&](double t) { return Values(Morph(ends.series, mode, zero, options).at(t)); };

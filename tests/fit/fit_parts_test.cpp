@@ -17,6 +17,7 @@
 #include "batten/mesh/primitives.h"
 #include "batten/mesh/topology.h"
 #include "fit/clouds.h"
+#include "support/dense.h"
 #include "support/errors.h"
 
 namespace batten {
@@ -90,7 +91,7 @@ TEST(NormalEquations, SolveWhatTheyState) {
   equations.assemble(NormalEquations::Matrix(rows.sparseView(0.0, 0.0)), forms, offsets);
   SolveReport report;
   const Values x = equations.solve(control, normals, fairness, {1e-13, 1000, {}}, report);
-  const Eigen::VectorXd expected = matrix.ldlt().solve(right);
+  const Eigen::VectorXd expected = test::solve_dense(matrix, right);
   for (Index v = 0; v < kPoints; ++v)
     EXPECT_LT((x.row(v).transpose() - expected.segment(3 * v, 3)).norm(), 1e-9 * expected.norm());
 }

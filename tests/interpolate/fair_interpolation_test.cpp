@@ -21,6 +21,7 @@
 #include "batten/refine/refinement.h"
 #include "batten/surface/limit_surface.h"
 #include "batten/surface/quadrature.h"
+#include "support/dense.h"
 #include "support/errors.h"
 #include "support/schemes.h"
 #include "support/shapes.h"
@@ -121,7 +122,7 @@ TEST(FairInterpolation, IsTheSolutionOfTheDenseSystem) {
     system.bottomLeftCorner(given, all) = Eigen::MatrixXd(limit.matrix()).topRows(given);
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(all + given, 3);
     right.bottomRows(given) = mesh.points;
-    const Eigen::MatrixXd expected = system.fullPivLu().solve(right).topRows(all);
+    const Eigen::MatrixXd expected = test::solve_dense(system, right).topRows(all);
 
     const FairSystem fair(limit, mesh.vertex_count(), Scalars());
     Values unknowns = fair.unknowns(fine.values);
@@ -164,7 +165,7 @@ std::string expect_dense_solution(const Mesh& mesh, const Values& wanted) {
   system.bottomLeftCorner(5 * given, 3 * all) = conditions;
   Eigen::VectorXd right = Eigen::VectorXd::Zero(system.rows());
   right.tail(5 * given) = values;
-  const Eigen::VectorXd expected = system.fullPivLu().solve(right).head(3 * all);
+  const Eigen::VectorXd expected = test::solve_dense(system, right).col(0).head(3 * all);
 
   const FairSystem fair(limit, mesh.vertex_count(), Scalars());
   Values unknowns = fair.unknowns(fine.values);
