@@ -2,9 +2,7 @@
 #include <fmt/format.h>
 
 #include "batten/volume/inside_volume.h"
-#include "batten/volume/label_mask.h"
 #include "batten/volume/marked_points.h"
-#include "batten/volume/mask_contours.h"
 #include "cli/input_output.h"
 #include "cli/picture.h"
 #include "cli/progress.h"
@@ -100,16 +98,6 @@ Points read_points(const SegmentArguments& arguments, Job& job) {
   return all;
 }
 
-/// Points as if only some slices of the labels had been drawn. Labels that are painted in these slices only are not
-/// compared with: they say nothing of the others.
-void take_contours(const SegmentArguments& arguments, SegmentRequest& request) {
-  const MaskContours contours = mask_contours(label_mask(*request.labels, request.label), *arguments.slices);
-  request.points = contours.points;
-  if (!contours.painted) return;
-  request.labels.reset();
-  request.label.clear();
-}
-
 SegmentRequest request_of(const SegmentArguments& arguments, Volume labels, Job& job) {
   const auto read_in_space = [&](const std::string& path) {
     return in_space(read_file(path, "", arguments.common.quiet, &job.notes), arguments.space);
@@ -122,7 +110,7 @@ SegmentRequest request_of(const SegmentArguments& arguments, Volume labels, Job&
   if (!arguments.mask.empty()) request.labels = std::move(labels);
   request.label = arguments.labels;
   request.points = read_points(arguments, job);
-  if (arguments.slices) take_contours(arguments, request);
+  if (arguments.slices) take_contours(request, *arguments.slices);
   if (!arguments.seed.empty()) {
     Points seed(1, 3);
     seed << arguments.seed[0], arguments.seed[1], arguments.seed[2];

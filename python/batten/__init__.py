@@ -47,7 +47,7 @@ from .surface import (
     surface_weights,
     tessellate,
 )
-from .volumes import Segmented, Together, Volume, read_volume, segment, segment_together, write_volume
+from .volumes import Segmented, Together, Volume, read_marked_points, read_volume, segment, segment_together, write_volume
 
 _native.set_error_type(Error)
 
@@ -103,6 +103,7 @@ __all__ = [
     "medial",
     "morph",
     "read",
+    "read_marked_points",
     "read_volume",
     "render",
     "repair",

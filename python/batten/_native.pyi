@@ -305,6 +305,7 @@ def segment_together(
 def inside(
     fine: MeshData, space: str, size: tuple[int, int, int], affine: _Doubles, parts: bool, /
 ) -> npt.NDArray[np.float32]: ...
+def read_marked_points(path: str, space: str, /) -> _Doubles: ...
 def render(
     surface: MeshData,
     lines: Optional[MeshData],

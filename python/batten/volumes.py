@@ -18,7 +18,16 @@ from .mesh import Array, Mesh, PathLike, as_mesh, points_array
 from .progress import Progress, callback
 from .reports import DistanceSummary, SegmentReport
 
-__all__ = ["Segmented", "Together", "Volume", "read_volume", "segment", "segment_together", "write_volume"]
+__all__ = [
+    "Segmented",
+    "Together",
+    "Volume",
+    "read_marked_points",
+    "read_volume",
+    "segment",
+    "segment_together",
+    "write_volume",
+]
 
 
 _LPS = np.diag([-1.0, -1.0, 1.0, 1.0])
@@ -130,6 +139,14 @@ def read_volume(path: PathLike) -> Volume:
     """
     values, affine = _files().read(os.fspath(path))
     return Volume(values, affine=affine)
+
+
+def read_marked_points(path: PathLike, *, space: str = "ras") -> Array:
+    """Points that were placed in 3D Slicer, (n, 3), in mm: of a .mrk.json or .fcsv, all lists and curves of it together.
+
+    The file says its world; ``space`` is the one that you get them in, "ras" or "lps". What was not placed is left out.
+    """
+    return _native.read_marked_points(os.fspath(path), space)
 
 
 def write_volume(path: PathLike, volume: Any) -> None:
@@ -251,6 +268,7 @@ def segment(
     mask: Any = None,
     label: int | abc.Sequence[int] | None = None,
     points: npt.ArrayLike | None = None,
+    slices: int | None = None,
     seed: npt.ArrayLike | None = None,
     numbers: tuple[float, float] | None = None,
     start: Any = None,
@@ -264,7 +282,7 @@ def segment(
 ) -> Segmented:
     """A small control mesh whose smooth surface is the border of a part of a volume, in mm.
 
-    Without points, seed or start it is the surface of a label. These three give a surface that is drawn to the image's
+    Without points, slices, seed or start it is the surface of a label. These give a surface that is drawn to the image's
     edges, and labels are then only compared with.
 
     Args:
@@ -273,6 +291,7 @@ def segment(
         mask: labels: what ``image`` may be; an array has the image's shape. The image itself where nothing is given.
         label: a number of the mask, or several as one; all but 0 where nothing is given.
         points: (n, 3), on the part's border: start and targets.
+        slices: the points are the labels' border in every n-th slice; 1 for labels painted in a few slices only.
         seed: a place in the part. numbers: the least and the greatest number of the image in it.
         start: a closed control mesh.
         edges: draws the surface of a label to the image's edges, too.
@@ -289,8 +308,11 @@ def segment(
         raise Error("edges=True draws the surface of a mask to the image; give the mask")
     if start is not None and any(option is not None for option in (vertices, genus, smoothing, scheme)):
         raise Error("the mesh to start from has its own vertices, genus, smoothness and scheme; leave them out")
+    if slices is not None and (points is not None or labels is None):
+        raise Error("slices are those of a mask, in place of points; give the mask")
     options = {
         "label": _labels(label),
+        "slices": slices,
         "points": np.zeros((0, 3)) if points is None else points_array(points),
         "seed": _triple(seed, 3, "a seed"),
         "numbers": _triple(numbers, 2, "the numbers of the part"),
@@ -325,6 +347,7 @@ def segment_together(
     pair = _mask_pair(mask, given)
     options = {
         "label": _labels(labels),
+        "slices": None,
         "points": np.zeros((0, 3)),
         "seed": None,
         "numbers": None,

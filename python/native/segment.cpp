@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "batten/volume/inside_volume.h"
+#include "batten/volume/marked_points.h"
 #include "batten/volume/segment_together.h"
+#include "native/arrays.h"
 #include "native/bind.h"
 #include "native/calls.h"
 #include "native/summary.h"
@@ -91,6 +93,7 @@ py::tuple segment(const Voxels& values, const Doubles& affine, const MaskPair& m
   const Volume image = volume_of(values, affine);
   SegmentRequest request = request_of(options, space);
   if (mask) request.labels = volume_of(mask->first, mask->second);
+  if (const auto slices = said<Index>(options, "slices")) take_contours(request, *slices);
   SegmentResult found = run(progress, [&](const Progress& report) { return segment_volume(image, request, report); });
   return tuple_of(std::move(found), space);
 }
@@ -107,6 +110,16 @@ py::tuple together(const Voxels& values, const Doubles& affine, const MaskPair& 
   py::list surfaces;
   for (SegmentResult& found : result.surfaces) surfaces.append(tuple_of(std::move(found), space));
   return py::make_tuple(surfaces, result.first_meetings, result.rounds, result.most_withdrawn);
+}
+
+py::array_t<double> marked(const std::string& path, const std::string& world) {
+  const WorldSpace space = choice_of(world, kSpaces, "the space");
+  Points points;
+  {
+    const py::gil_scoped_release unlocked;
+    points = in_space(read_marked_points(path), space);
+  }
+  return array_of(std::move(points));
 }
 
 py::array inside(const Mesh& fine, const std::string& world, const std::array<Index, 3>& size, const Doubles& affine,
@@ -126,6 +139,7 @@ void bind_segment(py::module_& module) {
   module.def("segment", &segment);
   module.def("segment_together", &together);
   module.def("inside", &inside);
+  module.def("read_marked_points", &marked);
 }
 
 }  // namespace batten::python

@@ -109,6 +109,29 @@ def test_points_seeds_and_meshes_start_a_surface() -> None:
     assert np.array_equal(again.mesh.face_vertices, from_seed.mesh.face_vertices)
 
 
+def test_slices_of_labels_are_points() -> None:
+    image = 100.0 / (1.0 + np.exp(distances() - RADIUS))
+    found = batten.segment(image, affine=AFFINE, mask=ball(), slices=2, vertices=100)
+    assert found.report.dice is not None and found.report.dice > 0.93
+    few = ball()
+    few[:, :, [0, 1, 3, 4, 6, 7, 9, 10, 12, 13]] = 0
+    painted = batten.segment(image, affine=AFFINE, mask=few, slices=1, vertices=100)
+    assert painted.report.dice is None and abs(painted.report.volume / VOLUME - 1) < 0.15
+    for wrong in ({"slices": 2}, {"slices": 2, "mask": ball(), "points": [[0, 0, 0]]}, {"slices": 0, "mask": ball()}):
+        with pytest.raises(batten.Error, match="slice"):
+            batten.segment(image, affine=AFFINE, **wrong)
+
+
+def test_points_of_slicer_come_in_the_world_that_is_asked(tmp_path: pathlib.Path) -> None:
+    path = tmp_path / "border.fcsv"
+    path.write_text("# CoordinateSystem = LPS\n# columns = id,x,y,z\na,1,2,3\nb,-4,5,6.5\n")
+    assert np.array_equal(batten.read_marked_points(path), [[-1, -2, 3], [4, -5, 6.5]])
+    assert np.array_equal(batten.read_marked_points(path, space="lps"), [[1, 2, 3], [-4, 5, 6.5]])
+    path.write_text("a,1,2,3\n")
+    with pytest.raises(batten.Error, match="border.fcsv"):
+        batten.read_marked_points(path)
+
+
 def test_surfaces_together_do_not_meet() -> None:
     halves = ball()
     halves[:10] = np.where(halves[:10] == 7, 3, 0)

@@ -7,6 +7,7 @@
 
 #include "batten/error.h"
 #include "batten/volume/label_mask.h"
+#include "batten/volume/segment_volume.h"
 #include "support/errors.h"
 #include "volume/phantoms.h"
 
@@ -48,6 +49,23 @@ TEST(MaskContours, OfALabelThatIsPaintedInSlicesAreTheseSlices) {
     const double step = std::abs(every_second.points(0, axis) - every_second.points.bottomRows(1)(0, axis));
     EXPECT_NEAR(std::remainder(step, 6.0), 0.0, 1e-9);
   }
+}
+
+TEST(MaskContours, AreThePointsOfARequestAndPaintedLabelsAreNotComparedWith) {
+  SegmentRequest request;
+  request.labels = ball_mask();
+  request.label = {1.0};
+  take_contours(request, 4);
+  EXPECT_EQ(request.points, mask_contours(ball_mask(), 4).points);
+  EXPECT_TRUE(request.labels) << "a whole label is compared with";
+  for (std::ptrdiff_t voxel = 0; voxel < request.labels->grid.count(); ++voxel) {
+    if (voxel / (21 * 21) % 3 != 0) request.labels->values[voxel] = 0.0F;
+  }
+  take_contours(request, 1);
+  EXPECT_GT(request.points.rows(), 20);
+  EXPECT_FALSE(request.labels);
+  EXPECT_TRUE(request.label.empty());
+  test::expect_error([&] { take_contours(request, 1); }, ErrorCode::BadArgument, "those of labels");
 }
 
 TEST(MaskContours, RefuseWhatIsNoTwoSlices) {

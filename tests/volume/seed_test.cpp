@@ -141,10 +141,10 @@ TEST(SegmentVolume, AMeshIsDrawnToTheEdgesFromNearby) {
 }
 
 TEST(SegmentVolume, RefusesThreePlatesWhoseSurfaceDoesNotClose) {
-  const auto plates = [](const Place& at) { return at.cwiseAbs().minCoeff() == 0.0 && at.norm() < 25.0 ? 1 : 0; };
+  const auto plates = [](const Place& at) { return at.cwiseAbs().minCoeff() == 0.0 && at.norm() < 17.0 ? 1 : 0; };
   SegmentRequest request;
   request.surface.vertices = 60;
-  test::expect_error([&] { segment_volume(test::made_volume(test::centred_grid(61), plates), request); },
+  test::expect_error([&] { segment_volume(test::made_volume(test::centred_grid(41), plates), request); },
                      ErrorCode::NotConverged, "too thin");
 }
 

@@ -8,6 +8,7 @@
 #include "batten/mesh/component_volumes.h"
 #include "batten/refine/refinement.h"
 #include "batten/volume/label_mask.h"
+#include "batten/volume/mask_contours.h"
 #include "batten/volume/points_mask.h"
 #include "batten/volume/slices_mask.h"
 
@@ -110,6 +111,16 @@ ImageFitOptions image_options(const SegmentRequest& request, const Beginning& be
 }
 
 }  // namespace
+
+void take_contours(SegmentRequest& request, Index every) {
+  if (!request.labels)
+    throw Error(ErrorCode::BadArgument, "contours in slices are those of labels, and there are none");
+  MaskContours contours = mask_contours(label_mask(*request.labels, request.label), every);
+  request.points = std::move(contours.points);
+  if (!contours.painted) return;
+  request.labels.reset();
+  request.label.clear();
+}
 
 SegmentResult measured_segment(Segmentation surface, const Volume& image, const std::optional<Volume>& mask,
                                const Progress& progress) {

@@ -28,6 +28,11 @@ struct SegmentRequest {
   std::optional<ImageFitOptions> image;
 };
 
+/// Points become the border of the labels in every n-th slice (mask_contours()), as if only these slices had been
+/// drawn. Labels that are painted in these slices only are not compared with: they say nothing of the others. Throws
+/// Error(BadArgument) without labels, and where mask_contours() does.
+void take_contours(SegmentRequest& request, Index every);
+
 /// A surface, how it was found, and how it sits.
 struct SegmentResult {
   Segmentation surface;
