@@ -245,9 +245,10 @@ export class App {
     }
     const scheme = SCHEMES.indexOf(this.beside);
     const { report, drawing } = await this.engine.run((engine) => engine.beside({ ...this.drawn(work), scheme, alpha: 0, interpolate: false, fair: false }));
-    this.stage.drawBeside(drawing);
     const left = farthest(work.points, drawing.points);
-    this.face.say(`Beside it: ${report.scheme} of the points as control mesh. It leaves the points by up to ${short(left)}, ${short((100 * left) / work.diagonal)} % of the size.`);
+    const share = `${short((100 * left) / work.diagonal)} %`;
+    this.stage.drawBeside(drawing, [`${this.report?.scheme ?? 'the surface'}${work.settings.interpolate ? ' through the points' : ''}`, `${report.scheme}, up to ${share} off the points`]);
+    this.face.say(`Beside it: ${report.scheme} of the points as control mesh. It leaves the points by up to ${short(left)}, ${share} of the size.`);
   }
 
   /** What a tolerance has come to. */

@@ -57,11 +57,14 @@ export interface SliderRange {
   readonly max: number;
   readonly step: number;
   readonly value: number;
+  /** What is said of a value; the number itself where nothing is given. */
+  readonly words?: (value: number) => string;
 }
 
 /** oninput while it moves, onchange when it is let go. */
 export function slider(label: string, range: SliderRange, on: { input?: (value: number) => void; change?: (value: number) => void }): Slider {
-  const output = h('output', {}, String(range.value));
+  const words = range.words ?? String;
+  const output = h('output', {}, words(range.value));
   const input = h('input', {
     type: 'range',
     min: range.min,
@@ -69,14 +72,14 @@ export function slider(label: string, range: SliderRange, on: { input?: (value: 
     step: range.step,
     value: range.value,
     oninput: () => {
-      output.textContent = input.value;
+      output.textContent = words(input.valueAsNumber);
       on.input?.(input.valueAsNumber);
     },
     onchange: () => on.change?.(input.valueAsNumber),
   });
   const set = (value: number): void => {
     input.value = String(value);
-    output.textContent = input.value;
+    output.textContent = words(input.valueAsNumber);
   };
   return { element: h('label', { class: 'row' }, h('span', {}, label), input, output), input, set };
 }

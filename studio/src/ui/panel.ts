@@ -185,7 +185,7 @@ export class Panel {
     });
     seed.element.hidden = true;
     const measured = fileButton('Measure points', 'Points to measure from the surface', (name, bytes) => void app.measureDistances({ name, bytes }));
-    const detail = slider('Detail', { min: 0, max: 6, step: 1, value: 0 }, {
+    const detail = slider('Detail', { min: 0, max: 6, step: 1, value: 0, words: (value) => (value > 0 ? String(value) : 'auto') }, {
       change: (value) => {
         app.detail = value;
         app.redraw();

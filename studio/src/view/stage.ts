@@ -3,6 +3,7 @@ import CameraControls from 'camera-controls';
 import * as THREE from 'three';
 import type { Change, Drawing, Field, Vec3 } from '../engine/types';
 import { ArrowLayer } from './arrow_layer';
+import { Captions } from './captions';
 import { CloudLayer } from './cloud_layer';
 import { ControlLayer } from './control_layer';
 import { PointsLayer } from './points_layer';
@@ -44,6 +45,7 @@ export class Stage {
   readonly shadows = new THREE.Group();
   /** A second surface, to the right of the first. */
   private readonly second = new SurfaceLayer();
+  private readonly captions: Captions;
   private readonly shadow = new ShadowLayer();
   private readonly secondShadow = new ShadowLayer();
   private waiting = 0;
@@ -67,6 +69,7 @@ export class Stage {
     this.scene.add(this.surface.mesh, this.control.group, this.points.object, this.cloud.object, this.arrows.group, this.spokes.object, this.second.mesh, this.shadows);
     this.shadows.add(this.shadow.object, this.secondShadow.object);
     this.second.clear();
+    this.captions = new Captions(canvas.parentElement ?? document.body);
     this.controls = this.steer(this.perspective);
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement ?? canvas);
     this.resize();
@@ -77,6 +80,7 @@ export class Stage {
       if (!moved && !this.dirty) return;
       this.dirty = false;
       this.renderer.render(this.scene, this.camera);
+      this.captions.follow(this.camera);
     };
     frame();
   }
@@ -254,17 +258,20 @@ export class Stage {
     this.control.draw(drawing);
     this.castShadows();
   }
-  /** Shows another surface beside the first, or with null none. */
-  drawBeside(drawing: Drawing | null): void {
+  /** Shows another surface beside the first, and what the two are; or with null none. */
+  drawBeside(drawing: Drawing | null, words: readonly [string, string] | null = null): void {
     const was = this.second.mesh.visible;
     if (drawing) this.second.draw(drawing);
     else this.second.clear();
     const across = new THREE.Vector3().crossVectors(new THREE.Vector3(...this.up), this.away('home')).normalize();
     this.second.mesh.position.copy(across.multiplyScalar(BESIDE * this.sphere.radius));
+    this.captions.stand(this.sphere, new THREE.Vector3(...this.up), this.second.mesh.position);
+    this.captions.write(drawing ? words : null);
     if (was !== this.second.mesh.visible) this.look('home');
     this.castShadows();
   }
 
+  /** Keeps none of the arrays, but with triangles all. */
   reshape(change: Change): void {
     if (change.triangles) this.surface.draw({ ...change, triangles: change.triangles });
     else this.surface.reshape(change);
@@ -281,7 +288,6 @@ export class Stage {
   wear(look: Look): void {
     if (look === 'plain') this.surface.lookPlain();
     else if (look === 'zebra') this.surface.lookZebra();
-  /** Keeps none of the arrays, but with triangles all. */
     else if (look instanceof Float32Array) this.surface.lookTextured(look);
     else this.surface.lookMeasured(look);
     this.touch();

@@ -601,9 +601,12 @@ const tasks = {
     await page.waitForFunction(() => (document.querySelector('[role=status]')?.textContent ?? '').includes('leaves the points'));
     await idle(page);
     assert.match(await status(page), /by up to \d/);
+    const captions = await page.locator('.captions span').allTextContents();
+    assert.match(captions.join('; '), /^Catmull-Clark through the points; Catmull-Clark, up to [\d.]+ % off the points$/);
     await shoot(page, 'studio-beside');
     await page.getByLabel('Beside it').selectOption('none');
     await idle(page);
+    assert.equal(await page.locator('.captions').isVisible(), false);
   },
 
   async 'textures'({ page }) {
