@@ -2,12 +2,17 @@
 #pragma once
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
 
 #include "batten/buffer.h"
 #include "batten/energy/row_sum.h"
@@ -106,9 +111,28 @@ void collect_rows(Index rows, const Make& make, const Fill& fill, bool with_valu
   }
 }
 
+/// Advises the system to use huge pages for an array that is not a Buffer, before it is written for the first time.
+inline void advise_huge_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
+#if defined(__linux__)
+  constexpr std::size_t kPage = 4096;
+  if (bytes < std::size_t{1} << 22) return;
+  const std::size_t skipped = kPage - reinterpret_cast<std::uintptr_t>(memory) % kPage;
+  madvise(static_cast<char*>(memory) + skipped, bytes - skipped, MADV_HUGEPAGE);
+#endif
+}
+
+/// Makes room for so many entries.
+inline void resize_entries(std::size_t count, EnergyMatrix& matrix) {
+  const bool is_fresh = matrix.data().allocatedSize() < static_cast<Eigen::Index>(count);
+  matrix.resizeNonZeros(static_cast<Eigen::Index>(count));
+  if (!is_fresh) return;
+  advise_huge_pages(matrix.valuePtr(), count * sizeof(double));
+  advise_huge_pages(matrix.innerIndexPtr(), count * sizeof(int));
+}
+
 /// Gives a matrix the beginnings of its rows.
 inline void set_starts(const Buffer<std::size_t>& starts, EnergyMatrix& matrix) {
-  matrix.resizeNonZeros(static_cast<Eigen::Index>(starts.back()));
+  resize_entries(starts.back(), matrix);
   for (std::size_t r = 0; r < starts.size(); ++r) matrix.outerIndexPtr()[r] = static_cast<int>(starts[r]);
 }
 
@@ -121,7 +145,7 @@ EnergyMatrix matrix_of_rows(Index rows, Index columns, const Make& make, const F
       rows, make, fill, true, starts,
       [&](std::size_t count, std::size_t guess) {
         if (static_cast<std::size_t>(matrix.data().allocatedSize()) < count) {
-          matrix.resizeNonZeros(static_cast<Eigen::Index>(std::max(count, guess)));
+          resize_entries(std::max(count, guess), matrix);
         }
         return RowsPlace{matrix.innerIndexPtr(), matrix.valuePtr()};
       },

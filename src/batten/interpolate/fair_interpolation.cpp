@@ -14,8 +14,10 @@
 #include "batten/interpolate/fair_system.h"
 #include "batten/interpolate/interpolator.h"
 #include "batten/interpolate/measured_error.h"
+#include "batten/limit/vertex_limit.h"
 #include "batten/mesh/checked_values.h"
 #include "batten/mesh/measures.h"
+#include "batten/parallel/parallel.h"
 #include "batten/progress.h"
 #include "batten/refine/child_topology.h"
 #include "batten/refine/refinement.h"
@@ -25,6 +27,7 @@ namespace batten {
 namespace {
 
 constexpr int kMostRounds = 20;
+constexpr std::ptrdiff_t kBlock = 512;  // vertices that a thread takes at a time
 /// In diagonals, about: control points of a sound surface stay nearer. Others are of a system that was nearly singular,
 /// and their surface may have lost its tangent planes and with them its energy.
 constexpr double kFarthest = 20.0;
@@ -256,14 +259,25 @@ Values FairSolve::run(const Values& lengths, const std::optional<Values>& plain,
 /// Angles between the normals wanted and those of the surface.
 void measure_normals(const FineMesh& fine, const FairNormals& normals, ConstValuesRef wanted, const Values& control,
                      FairReport& report) {
-  if (normals.empty()) return;
-  const LimitNormals reached = limit_normals(fine.topology, fine.scheme, control);
   report.normal_count = normals.count();
-  for (const Index v : normals.vertices()) {
-    const Eigen::RowVector3d n = reached.vertices.row(v);
-    const Eigen::RowVector3d w = wanted.row(v).normalized();
-    report.max_angle = std::max(report.max_angle, std::atan2(n.cross(w).norm(), n.dot(w)));
-  }
+  const auto tangent = [&](Index vertex, TileValue value) {
+    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+    visit_vertex_limit(fine.topology, fine.scheme, value, fine.topology.vertex_half_edge(vertex),
+                       [&](Index of, double weight) { sum += weight * control.row(of); });
+    return sum;
+  };
+  const auto largest = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    double angle = 0.0;
+    for (std::ptrdiff_t i = begin; i < end; ++i) {
+      const Index v = normals.vertices()[i];
+      const Eigen::RowVector3d n = tangent(v, TileValue::TangentU).cross(tangent(v, TileValue::TangentV));
+      const Eigen::RowVector3d w = wanted.row(v).normalized();
+      angle = std::max(angle, std::atan2(n.cross(w).norm(), n.dot(w)));
+    }
+    return angle;
+  };
+  report.max_angle = parallel_reduce(
+      normals.count(), 0.0, largest, [](double a, double b) { return std::max(a, b); }, kBlock);
 }
 
 void measure_positions(const LimitMatrix& limit, const Values& control, ConstValuesRef targets, FairReport& report) {

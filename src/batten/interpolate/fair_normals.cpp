@@ -1,8 +1,9 @@
 #include "batten/interpolate/fair_normals.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
-#include <algorithm>
+#include <Eigen/QR>
+#include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "batten/limit/vertex_limit.h"
@@ -13,7 +14,7 @@ namespace batten {
 
 namespace {
 
-/// Singular values below this share of the largest are zero: tangents that are parallel whatever the unknowns.
+/// Tangents with less than this share of the larger one across it are parallel whatever the unknowns.
 constexpr double kNoTangent = 1e-9;
 constexpr std::ptrdiff_t kConditionBlock = 512;
 
@@ -26,48 +27,69 @@ bool has_one_normal(const LimitMatrix& limit, Index vertex, VertexRing& ring) {
 
 }  // namespace
 
+/// All but the normal. False where there is no tangent plane.
+bool FairNormals::find_condition(const LimitMatrix& limit, Index vertex,
+                                 const Eigen::SparseMatrix<double, Eigen::RowMajor>& to_control, const Values& constant,
+                                 Condition& condition) {
+  const Topology& refined = limit.topology();
+  VertexWeights entries;  // of both tangents: the column's number twice, plus the tangent's
+  condition.constant.setZero();
+  for (int t = 0; t < 2; ++t) {
+    const TileValue tangent = t == 0 ? TileValue::TangentU : TileValue::TangentV;
+    visit_vertex_limit(
+        refined, limit.scheme(), tangent, refined.vertex_half_edge(vertex), [&](Index of, double weight) {
+          condition.constant.row(t) += weight * constant.row(of);
+          for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator entry(to_control, of); entry; ++entry) {
+            entries.emplace_back(2 * static_cast<Index>(entry.col()) + t, weight * entry.value());
+          }
+        });
+  }
+  merge(entries);
+  for (const auto& [place, weight] : entries) {
+    if (condition.columns.empty() || condition.columns.back() != place / 2) condition.columns.push_back(place / 2);
+  }
+  Rows rows = Rows::Zero(2, static_cast<Eigen::Index>(condition.columns.size()));
+  Eigen::Index column = 0;
+  for (const auto& [place, weight] : entries) {
+    while (condition.columns[column] != place / 2) ++column;
+    rows(place % 2, column) = weight;
+  }
+  // Rows become orthonormal: R^T Q^T unknowns = tangents - constant is Q^T unknowns = R^-T (tangents - constant).
+  const Eigen::ColPivHouseholderQR<Eigen::Matrix<double, Eigen::Dynamic, 2>> qr(rows.transpose());
+  const Eigen::Matrix2d r = qr.matrixR().topRows<2>().triangularView<Eigen::Upper>();
+  if (!(std::abs(r(1, 1)) > kNoTangent * std::abs(r(0, 0)))) return false;
+  const Eigen::Matrix<double, Eigen::Dynamic, 2> q =
+      qr.householderQ() * Eigen::Matrix<double, Eigen::Dynamic, 2>::Identity(rows.cols(), 2);
+  condition.rows = q.transpose();
+  condition.to_rows = (r * qr.colsPermutation().transpose()).transpose().inverse();
+  condition.values = -condition.to_rows * condition.constant;
+  return true;
+}
+
 FairNormals::FairNormals(const LimitMatrix& limit, ConstValuesRef normals,
                          const Eigen::SparseMatrix<double, Eigen::RowMajor>& to_control, const Values& constant) {
-  const Topology& refined = limit.topology();
-  VertexRing ring;
-  for (Index v = 0; v < static_cast<Index>(normals.rows()); ++v) {
-    if (normals.row(v).isZero(0.0) || !has_one_normal(limit, v, ring)) continue;
-    const Eigen::RowVector3d normal = normals.row(v).normalized();
-    VertexWeights entries;  // of both tangents: the column's number twice, plus the tangent's
-    Condition condition;
-    condition.constant.setZero();
-    for (int t = 0; t < 2; ++t) {
-      const TileValue tangent = t == 0 ? TileValue::TangentU : TileValue::TangentV;
-      visit_vertex_limit(refined, limit.scheme(), tangent, refined.vertex_half_edge(v),
-                         [&](Index vertex, double weight) {
-                           condition.constant.row(t) += weight * constant.row(vertex);
-                           for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator entry(to_control, vertex);
-                                entry; ++entry) {
-                             entries.emplace_back(2 * static_cast<Index>(entry.col()) + t, weight * entry.value());
-                           }
-                         });
-    }
-    merge(entries);
-    condition.normal = normal;
-    for (const auto& [place, weight] : entries) {
-      if (condition.columns.empty() || condition.columns.back() != place / 2) condition.columns.push_back(place / 2);
-    }
-    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, static_cast<Eigen::Index>(condition.columns.size()));
-    Eigen::Index column = 0;
-    for (const auto& [place, weight] : entries) {
-      while (condition.columns[column] != place / 2) ++column;
-      rows(place % 2, column) = weight;
-    }
-    // Rows become orthonormal: U S W^T unknowns = tangents - constant is W^T unknowns = S^-1 U^T (tangents - constant).
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeThinU | Eigen::ComputeThinV);
-    const auto rank = (svd.singularValues().array() > kNoTangent * std::max(1e-300, svd.singularValues()[0])).count();
-    if (rank < 2) continue;  // no tangent plane
-    condition.rows = svd.matrixV().leftCols(2).transpose();
-    condition.to_rows = svd.singularValues().cwiseInverse().asDiagonal() * svd.matrixU().transpose();
-    condition.values = -condition.to_rows * condition.constant;
-    condition.directions = normal.transpose() * normal;
-    conditions_.push_back(std::move(condition));
-    vertices_.push_back(v);
+  const auto count = static_cast<std::size_t>(normals.rows());
+  std::vector<Condition> found(count);
+  Buffer<std::uint8_t> holds(count, 0);
+  parallel_for(
+      normals.rows(),
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        VertexRing ring;
+        for (std::ptrdiff_t i = begin; i < end; ++i) {
+          const auto v = static_cast<Index>(i);
+          Condition& condition = found[static_cast<std::size_t>(i)];
+          if (normals.row(v).isZero(0.0) || !has_one_normal(limit, v, ring)) continue;
+          if (!find_condition(limit, v, to_control, constant, condition)) continue;
+          condition.normal = normals.row(v).normalized();
+          condition.directions = condition.normal.transpose() * condition.normal;
+          holds[i] = 1;
+        }
+      },
+      kConditionBlock);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (holds[i] == 0) continue;
+    conditions_.push_back(std::move(found[i]));
+    vertices_.push_back(static_cast<Index>(i));
   }
 }
 

@@ -50,15 +50,19 @@ class FairNormals {
 
  private:
   using Tangents = Eigen::Matrix<double, 2, 3>;
+  using Rows = Eigen::Matrix<double, 2, Eigen::Dynamic>;
   struct Condition {
     Eigen::RowVector3d normal;
     std::vector<Index> columns;  ///< of unknowns
-    Eigen::MatrixXd rows;        ///< two, orthonormal
+    Rows rows;                   ///< orthonormal
     Eigen::Matrix2d to_rows;     ///< tangents = to_rows^-1 (rows * unknowns) + constant
     Tangents constant;
     Tangents values;             ///< what rows * unknowns shall be, in the directions that count:
     Eigen::Matrix3d directions;  ///< the projection onto n, or onto everything
   };
+  static bool find_condition(const LimitMatrix& limit, Index vertex,
+                             const Eigen::SparseMatrix<double, Eigen::RowMajor>& to_control, const Values& constant,
+                             Condition& condition);
   static Tangents product(const Condition& condition, const Values& unknowns);
   static Tangents tangents(const Condition& condition, const Values& unknowns);
   void move(Values& unknowns, double values_factor) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "batten/error.h"
 #include "batten/parallel/parallel.h"
@@ -243,7 +244,8 @@ void IncompleteFactor::substitute_part(int part, Buffer<Double4>& x) const {
 
 void IncompleteFactor::solve(const Values& b, Values& x) const {
   x.resize(b.rows(), b.cols());
-  Buffer<Double4> four(static_cast<std::size_t>(b.rows()));
+  Buffer<Double4> four = spare_.take();
+  four.resize(static_cast<std::size_t>(b.rows()));
   const auto each = [](const std::vector<Range>& ranges, const auto& body) {
     parallel_for_each(static_cast<std::ptrdiff_t>(ranges.size()),
                       [&](std::ptrdiff_t r) { body(static_cast<int>(r), ranges[static_cast<std::size_t>(r)]); });
@@ -277,6 +279,7 @@ void IncompleteFactor::solve(const Values& b, Values& x) const {
       store(range);
     });
   }
+  spare_.give_back(std::move(four));
 }
 
 }  // namespace batten

@@ -5,6 +5,7 @@
 
 #include "batten/buffer.h"
 #include "batten/double4.h"
+#include "batten/parallel/spare.h"
 #include "batten/types.h"
 
 namespace batten {
@@ -64,6 +65,7 @@ class IncompleteFactor {
   Buffer<int> columns_;
   Buffer<double> weights_;  ///< on the diagonal one over L's number
   Buffer<double> scale_;    ///< of each row of L: a row and its column times this: diagonals of 1
+  mutable Spare<Buffer<Double4>> spare_;
 };
 
 }  // namespace batten

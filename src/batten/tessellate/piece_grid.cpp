@@ -25,19 +25,9 @@ void combine_four(Scalar* __restrict out, Scalar origin, const Scalar* weight, s
   }
 }
 
-#if defined(__AVX512F__)
-constexpr std::ptrdiff_t kVectorBytes = 64;
-#elif defined(__AVX__)
-constexpr std::ptrdiff_t kVectorBytes = 32;
-#else
-constexpr std::ptrdiff_t kVectorBytes = 16;
-#endif
-
-/// Sums of three columns at a time, of four vectors each: processors have sixteen registers for these, some more. With
-/// more sums WebAssembly's code keeps them in memory.
 template <typename Scalar>
 constexpr std::ptrdiff_t kSumLanes = std::min<std::ptrdiff_t>(kGridLanes,
-                                                              4 * kVectorBytes /
+                                                              kSumVectors* kVectorBytes /
                                                                   static_cast<std::ptrdiff_t>(sizeof(Scalar)));
 
 /// out[c][i] = origin[c] + sum over j of control[j * columns + first + c] * weights[j * stride + i]; out planes are

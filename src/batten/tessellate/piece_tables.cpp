@@ -20,8 +20,9 @@ Buffer<Scalar> transposed(const Buffer<double>& weights, std::ptrdiff_t per_poin
   return result;
 }
 
-/// Up to this size a sum of all sixteen points takes less time than two passes of four (measured: decision 5).
-constexpr int kLargestDensePatch = 8;
+/// Up to this size a sum of all sixteen points takes less time than two passes of four (measured: decisions 5 and 17);
+/// with four floats a vector, as in WebAssembly, it takes more vectors.
+constexpr int kLargestDensePatch = kVectorBytes > 16 ? 8 : 2;
 
 /// Weights of the tensor product, point by point.
 Buffer<double> product(const Buffer<double>& u, const Buffer<double>& v) {

@@ -8,8 +8,21 @@
 
 namespace batten {
 
-/// Points are summed in registers, so many at a time; rows of weights and planes are padded to multiples.
-inline constexpr std::ptrdiff_t kGridLanes = 32;
+/// Of the vectors that loops are compiled for.
+#if defined(__AVX512F__)
+inline constexpr std::ptrdiff_t kVectorBytes = 64;
+#elif defined(__AVX__)
+inline constexpr std::ptrdiff_t kVectorBytes = 32;
+#else
+inline constexpr std::ptrdiff_t kVectorBytes = 16;
+#endif
+
+/// Three columns of points are summed at a time, in so many vectors each. Processors with short vectors have sixteen
+/// registers, in which three such sums, a row of weights and a control point find room; with more, WebAssembly's code
+/// keeps them in memory.
+inline constexpr std::ptrdiff_t kSumVectors = kVectorBytes > 16 ? 4 : 3;
+/// Rows of weights and planes are padded to multiples: one or more sums.
+inline constexpr std::ptrdiff_t kGridLanes = kVectorBytes > 16 ? 32 : 12;
 constexpr std::ptrdiff_t padded(std::ptrdiff_t points) { return (points + kGridLanes - 1) / kGridLanes * kGridLanes; }
 
 /// How one kind of value follows from control points, for patches of every size and for every shared ring.
