@@ -94,6 +94,14 @@ TEST(NormalEquations, SolveWhatTheyState) {
   const Eigen::VectorXd expected = test::solve_dense(matrix, right);
   for (Index v = 0; v < kPoints; ++v)
     EXPECT_LT((x.row(v).transpose() - expected.segment(3 * v, 3)).norm(), 1e-9 * expected.norm());
+  // With one move given, the rows of the others hold.
+  const GivenMoves given{{0, 1, 0, 0}, Values::Constant(kPoints, 3, 0.25)};
+  const Values beside = equations.solve(control, normals, fairness, {1e-13, 1000, {}}, report, given);
+  EXPECT_EQ(beside.row(1), given.moves.row(1));
+  const Eigen::VectorXd flat = Eigen::Map<const Eigen::VectorXd>(beside.data(), 12);
+  const Eigen::VectorXd rest = matrix * flat - right;
+  EXPECT_LT(rest.head(3).norm() + rest.tail(6).norm(), 1e-9 * right.norm());
+  EXPECT_GT(rest.segment(3, 3).norm(), 1e-3 * right.norm()) << "what holds the given one";
 }
 
 TEST(EnclosingSphere, OfSmallShapesIsKnown) {

@@ -57,6 +57,10 @@ FitRun::FitRun(SurfaceFitter& fitter, const FitOptions& options, FitReport& repo
 
 void FitRun::approach(int most, const Progress& progress) {
   if (approach_ == 0) show();
+  if (approach_ == 0 && settled_) {
+    smooth_unsound();
+    schedule_.note_restart(measured());
+  }
   const int end = std::min(most, options_.rounds);
   if (approached_ || approach_ >= end) return;
   approached_ =
@@ -109,6 +113,7 @@ void FitRun::note_passed() { passed_.note({fitter_.control(), measured().rms}); 
 /// Relaxes the surface where it is not sound, and goes on from there until it is.
 void FitRun::mend() {
   constexpr int kRounds = 10;
+  if (settled_) return smooth_unsound();
   for (int round = 0; round < kRounds && has_unsound_beyond(allowed_); ++round) {
     fitter_.hold_unsound();
     if (!fitter_.relax(Soundness::Unfolded)) return;
@@ -118,12 +123,40 @@ void FitRun::mend() {
   }
 }
 
+/// Makes a surface sound that is near the points already: the energy of the control points around unsound faces counts
+/// more from round to round, and where that does not do, these faces are evened out little by little. Both cost less
+/// distance than relaxing, which draws the ends of thin parts in.
+void FitRun::smooth_unsound() {
+  constexpr int kRounds = 6;
+  constexpr double kFirst = 40.0;  // of the fairness
+  constexpr double kGrowth = 1.1;
+  constexpr int kEvenRounds = 60;
+  constexpr double kEvenPart = 0.2;
+  if (!has_unsound_beyond(allowed_)) return;
+  FitStep step = schedule_.step();
+  step.mending = kFirst * step.fairness;
+  for (int round = 0; round < kRounds && has_unsound_beyond(allowed_); ++round) {
+    fitter_.hold_unsound();
+    fitter_.move_to(fitter_.stepped(fitter_.control(), fitter_.find_step(step), Soundness::Whole));
+    fitter_.attach();
+    note_passed();
+    step.mending *= kGrowth;
+  }
+  for (int round = 0; round < kEvenRounds && has_unsound_beyond(allowed_); ++round) {
+    fitter_.even_out_unsound(kEvenPart);
+    evened_out_ = true;
+  }
+  fitter_.attach();
+  note_passed();
+}
+
 /// Evens the surface out where it is still not sound; false where there is nothing to do.
 bool FitRun::even_out() {
   constexpr int kRounds = 20;
+  constexpr double kPart = 0.5;
   if (!has_unsound_beyond(allowed_)) return false;
   evened_out_ = true;
-  for (int round = 0; round < kRounds && has_unsound_beyond(allowed_); ++round) fitter_.even_out_unsound();
+  for (int round = 0; round < kRounds && has_unsound_beyond(allowed_); ++round) fitter_.even_out_unsound(kPart);
   fitter_.attach();
   note_passed();
   return true;
@@ -219,14 +252,20 @@ void FitRun::lower_worst(const Progress& progress) {
       static_cast<int>(std::clamp<Eigen::Index>(kPointsInAll / fitter_.distances().size(), kFewest, kMost));
   constexpr double kExact = 1e-10;
   constexpr double kMostGrowth = 1.1;
+  constexpr int kStill = 3;
+  Values last;
   FitErrors best = measured();
   if (best.rms < kExact) return;
   const double most = kMostGrowth * best.rms;
   const Index unsound = allowed_ == kAnyNumber ? kAnyNumber : fitter_.unsound_faces();
   passed_.clear();
   passed_.note({fitter_.control(), best.rms, unsound});
+  int still = 0;  // rounds in a row that moved nothing
   for (int round = 0; round < rounds; ++round) {
     report_progress(progress, static_cast<double>(round) / rounds);
+    still = fitter_.control() == last ? still + 1 : 0;
+    if (still == kStill) break;
+    last = fitter_.control();
     set_weights(kWorstPower);
     go_round(Soundness::Unfolded);
     const FitErrors errors = measured();
@@ -256,6 +295,7 @@ void FitRun::set_weights(double power) {
 void FitRun::go_round(Soundness asked) {
   constexpr int kHalvings = 3;
   constexpr double kGain = 0.03;
+  constexpr int kFollow = 2;
   const Stopwatch watch;
   FitRound round;
   const FitStep& step = schedule_.step();
@@ -266,7 +306,13 @@ void FitRun::go_round(Soundness asked) {
   round.objective = fitter_.objective(step.fairness);
   for (int halving = 0; halving <= kHalvings; ++halving) {
     if (halving == kHalvings) move.setZero();
-    fitter_.move_to(fitter_.stepped(before, move, asked));
+    Values next = fitter_.stepped(before, move, asked);
+    // The others follow where some are held; otherwise their step would no longer lower the objective.
+    for (int again = 0; settled_ && halving == 0 && again < kFollow && fitter_.has_held(); ++again) {
+      move = fitter_.find_step_beside(step, next - before);
+      next = fitter_.stepped(before, move, asked);
+    }
+    fitter_.move_to(next);
     fitter_.attach();
     round.after = fitter_.objective(step.fairness);
     if (round.after <= round.objective) break;

@@ -76,6 +76,7 @@ class FitRun {
   bool has_unsound_beyond(Index most) const;
   void note_passed();
   void mend();
+  void smooth_unsound();
   bool even_out();
   bool return_to_best();
   Index next_count() const;

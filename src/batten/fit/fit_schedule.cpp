@@ -13,6 +13,7 @@ constexpr double kLeastFairness = 1e-14;
 constexpr double kFall = 0.4;
 /// How much more than fairness the evenness of the parameters counts.
 constexpr double kEvenness = 100.0;
+constexpr double kEvennessOfSettled = 50.0;
 constexpr double kMostEven = 3e-2;
 /// What draws the surface to the points falls with the distances, as parts of the points' spacing.
 constexpr double kPullOfDistance = 1.0;
@@ -38,7 +39,8 @@ FitSchedule::FitSchedule(const FitErrors& errors, double spacing, Eigen::Index p
     : best_(errors),
       spacing_(spacing),
       least_gain_(std::clamp(kGain * static_cast<double>(points) / kPointsOfGain, kGain, kMostGain)),
-      most_idle_(least_gain_ > kGain ? kIdleOfLong : kIdle) {
+      most_idle_(least_gain_ > kGain ? kIdleOfLong : kIdle),
+      evenness_(settled ? kEvennessOfSettled : kEvenness) {
   step_.pull = settled ? std::min(1.0, wanted_pull(errors)) : 1.0;
   step_.fairness = std::min(kMostFair, std::max(kLeastFairness, kFairnessOfSquares * errors.bulk * errors.bulk));
   choose(errors);
@@ -47,7 +49,7 @@ FitSchedule::FitSchedule(const FitErrors& errors, double spacing, Eigen::Index p
 void FitSchedule::choose(const FitErrors& errors) {
   const double wanted = kFairnessOfSquares * errors.bulk * errors.bulk;
   step_.fairness = std::max(kLeastFairness, std::min(step_.fairness, std::max(wanted, kFall * step_.fairness)));
-  step_.evenness = std::max(step_.fairness, std::min(kMostEven, kEvenness * step_.fairness));
+  step_.evenness = std::max(step_.fairness, std::min(kMostEven, evenness_ * step_.fairness));
   step_.pull = std::min(step_.pull, std::max(wanted_pull(errors), kPullFall * step_.pull));
 }
 

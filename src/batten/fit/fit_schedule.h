@@ -12,7 +12,8 @@ namespace batten {
 class FitSchedule {
  public:
   /// Before the first round. spacing: of so many points, as a share of the diameter. settled: the surface is near the
-  /// points already and is drawn to them no more than its distances ask for.
+  /// points already: it is drawn to them no more than its distances ask for, and its parameters are even enough to move
+  /// more freely.
   FitSchedule(const FitErrors& errors, double spacing, Eigen::Index points, bool settled = false);
 
   const FitStep& step() const { return step_; }
@@ -34,6 +35,7 @@ class FitSchedule {
   double spacing_;
   double least_gain_;
   int most_idle_;
+  double evenness_;  ///< of the parameters, for what fairness counts
   int idle_ = 0;
 };
 

@@ -114,7 +114,7 @@ void NormalEquations::multiply_blocks(const Values& x, double fairness, double o
 }
 
 Values NormalEquations::solve(const Values& control, const Values& normals, const Fairness& fairness,
-                              const StopRule& stop, SolveReport& report) const {
+                              const StopRule& stop, SolveReport& report, const GivenMoves& given) const {
   const double own = fairness.damping * mean_diagonal_;
   Values work;
   Values right;
@@ -124,16 +124,16 @@ Values NormalEquations::solve(const Values& control, const Values& normals, cons
   work = fairness.stiffness.asDiagonal() * work;
   right = right_ - fairness.all * right - fairness.tangent * work;
   const std::vector<Eigen::Matrix3d> inverses = invert_diagonal(normals, fairness, own);
+  const auto keep_free = [&](Values& values) {
+    for (std::size_t v = 0; v < given.flags.size(); ++v) {
+      if (given.flags[v] != 0) values.row(static_cast<Eigen::Index>(v)).setZero();
+    }
+  };
   const LinearMap precondition = [&](const Values& from, Values& to) {
     to.resize(from.rows(), 3);
     for (Eigen::Index v = 0; v < from.rows(); ++v)
       to.row(v) = (inverses[static_cast<std::size_t>(v)] * from.row(v).transpose()).transpose();
   };
-  Values x;
-  precondition(right, x);
-  StopRule within = stop;
-  within.tolerance *= std::sqrt(std::max(0.0, right.cwiseProduct(x).sum()));
-  x.setZero();
   Values in_planes;
   const Scalars roots = fairness.stiffness.cwiseSqrt();
   const LinearMap product = [&](const Values& from, Values& to) {
@@ -144,8 +144,27 @@ Values NormalEquations::solve(const Values& control, const Values& normals, cons
     project(normals, in_planes);
     to += fairness.tangent * (roots.asDiagonal() * in_planes);
   };
-  report = conjugate_gradients(product, precondition, Coefficients::Joint, right, x, within);
-  return x;
+  Values x;
+  precondition(right, x);
+  StopRule within = stop;
+  within.tolerance *= std::sqrt(std::max(0.0, right.cwiseProduct(x).sum()));
+  Values start = Values::Zero(control.rows(), 3);
+  for (std::size_t v = 0; v < given.flags.size(); ++v) {
+    const auto row = static_cast<Eigen::Index>(v);
+    if (given.flags[v] != 0) start.row(row) = given.moves.row(row);
+  }
+  if (!given.flags.empty()) {
+    product(start, x);
+    right -= x;
+    keep_free(right);
+  }
+  const LinearMap free_product = [&](const Values& from, Values& to) {
+    product(from, to);
+    keep_free(to);
+  };
+  x.setZero();
+  report = conjugate_gradients(free_product, precondition, Coefficients::Joint, right, x, within);
+  return start + x;
 }
 
 std::vector<Eigen::Matrix3d> NormalEquations::invert_diagonal(const Values& normals, const Fairness& fairness,

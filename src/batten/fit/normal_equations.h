@@ -2,6 +2,7 @@
 /// energy are least.
 #pragma once
 #include <Eigen/SparseCore>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,12 @@ struct Fairness {
   double tangent = 0.0;  ///< t
   Scalars stiffness;     ///< of each control point: its row of T is times its root
   double damping = 0.0;  ///< m
+};
+
+/// Control points whose moves are given.
+struct GivenMoves {
+  Buffer<std::uint8_t> flags;  ///< one a control point; none where all are free
+  Values moves;                ///< V-by-3, of those flagged
 };
 
 /// For rows J of weights (surface/surface_weights.h), forms M_i and offsets o_i of N places, an energy matrix K, and
@@ -43,9 +50,9 @@ class NormalEquations {
   void assemble(const Matrix& rows, std::span<const Form> forms, const Points& offsets);
 
   /// x, V-by-3, by conjugate gradients until their residual is `tolerance` of the first. control: P; normals: V-by-3,
-  /// of unit length or zero.
+  /// of unit length or zero. Where moves are given, the others are found that suit them.
   Values solve(const Values& control, const Values& normals, const Fairness& fairness, const StopRule& stop,
-               SolveReport& report) const;
+               SolveReport& report, const GivenMoves& given = {}) const;
 
  private:
   void multiply_blocks(const Values& x, double fairness, double own, Values& y) const;

@@ -57,6 +57,7 @@ struct SphereMap::Parts {
   VertexRings rings;
   Scalars density;
   Points directions;
+  double evenness = 0.0;  ///< what the stretch of the surface on the sphere counts
 
   explicit Parts(const Mesh& mesh)
       : points(mesh.points),
@@ -70,10 +71,12 @@ struct SphereMap::Parts {
   void place(Index v);
   void relax(Index v);
   void relax_all();
+  void choose_evenness();
 };
 
 /// The sum over the triangles around a vertex at a place of area times the mean of the squares of the singular values
-/// of the map from the triangle on the sphere to that of the surface; kTurned where one is turned over.
+/// of the map from the triangle on the sphere to that of the surface, and of the map back as evenness asks; kTurned
+/// where one is turned over.
 double SphereMap::Parts::stretch(Index v, const Eigen::Vector3d& place, Eigen::Vector3d* slope) const {
   constexpr double kLeastDeterminant = 1e-12;
   // A triangle of the surface without area has to keep one on the sphere.
@@ -102,9 +105,11 @@ double SphereMap::Parts::stretch(Index v, const Eigen::Vector3d& place, Eigen::V
     const double dirichlet =
         opposite[0] * (b - c).squaredNorm() + opposite[1] * to_c.squaredNorm() + opposite[2] * to_b.squaredNorm();
     const double unit = 0.25 * area / (determinant * determinant);
-    sum += unit * dirichlet;
+    // The same sum is Dirichlet's energy of the map back, up to a factor.
+    const double both = unit + 0.0625 * evenness * dense * dense / area;
+    sum += both * dirichlet;
     if (slope != nullptr)
-      *slope += unit * (2.0 * opposite[1] * to_c + 2.0 * opposite[2] * to_b - 2.0 * dirichlet / determinant * bc);
+      *slope += 2.0 * (both * (opposite[1] * to_c + opposite[2] * to_b) - unit * dirichlet / determinant * bc);
   }
   return sum;
 }
@@ -169,6 +174,25 @@ void SphereMap::Parts::relax_all() {
   }
 }
 
+/// In proportion to the square of what both maps would stretch on a sphere, so that both count the same in any unit.
+void SphereMap::Parts::choose_evenness() {
+  constexpr double kShare = 0.1;
+  double area = 0.0;
+  for (Index v = 0; v < static_cast<Index>(points.rows()); ++v) {
+    const Ring& ring = rings.of(v);
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Index one = ring[i];
+      const Index two = ring[(i + 1) % ring.size()];
+      const double dense = (density[v] + density[one] + density[two]) / 3.0;
+      const Eigen::RowVector3d side = points.row(one) - points.row(v);
+      // Each triangle is met from three corners.
+      area += dense * dense * side.cross(points.row(two) - points.row(v)).norm() / 6.0;
+    }
+  }
+  const double square = area / (4.0 * std::numbers::pi);
+  evenness = kShare * square * square;
+}
+
 SphereMap::SphereMap(const Mesh& mesh, const Progress& progress) : parts_(std::make_unique<Parts>(mesh)) {
   constexpr double kGrowth = 1.4;
   constexpr double kFirst = 8.0;
@@ -213,6 +237,7 @@ Index SphereMap::turned_triangles() const {
 
 void SphereMap::relax(const Scalars& density, int sweeps) {
   parts_->density = density;
+  parts_->choose_evenness();
   for (int sweep = 0; sweep < sweeps; ++sweep) parts_->relax_all();
 }
 

@@ -26,8 +26,9 @@ class SphereMap {
   Index turned_triangles() const;
 
   /// Moves vertices, sweep by sweep, to where the stretch is less when lengths of the surface are multiplied by the
-  /// root of its density: where it is twice as dense, it gets twice the part of the sphere. density: one a vertex,
-  /// positive.
+  /// root of its density: where it is twice as dense, it gets twice the part of the sphere. The stretch of the map from
+  /// the surface to the sphere counts a tenth as much: without it parameters bend where the surface does not, and
+  /// surfaces that follow them fold at the tips of ears. density: one a vertex, positive.
   void relax(const Scalars& density, int sweeps);
 
  private:

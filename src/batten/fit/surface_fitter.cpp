@@ -2,8 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +10,7 @@
 #include "batten/error.h"
 #include "batten/fit/normal_equations.h"
 #include "batten/fit/point_tree.h"
+#include "batten/fit/relaxed_surface.h"
 #include "batten/fit/surface_guard.h"
 #include "batten/limit/limit_matrix.h"
 #include "batten/mesh/checked_values.h"
@@ -174,57 +173,6 @@ Values kept_sound(FitLevel& level, const Values& control, const Values& step, So
   return control;
 }
 
-/// Where a control point inside the surface relaxes to: the mean of its neighbours, on sharp lines that of those on the
-/// lines.
-struct RelaxedPlace {
-  Eigen::RowVector3d mean = Eigen::RowVector3d::Zero();
-  Eigen::RowVector3d line = Eigen::RowVector3d::Zero();  ///< where one line passes, from one of the two to the other
-  Index sharp = 0;                                       ///< neighbours on lines
-};
-std::optional<RelaxedPlace> relaxed_place(const Topology& topology, const Values& control, Index v) {
-  if (topology.is_boundary_vertex(v)) return std::nullopt;
-  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-  Eigen::RowVector3d sharp_sum = Eigen::RowVector3d::Zero();
-  RelaxedPlace result;
-  Index count = 0;
-  topology.for_each_outgoing(v, [&](Index h) {
-    const Eigen::RowVector3d neighbour = control.row(topology.destination(h));
-    sum += neighbour;
-    ++count;
-    if (!(topology.edge_sharpness(topology.edge(h)) > 0.0F)) return;
-    sharp_sum += neighbour;
-    result.line = neighbour - result.line;
-    ++result.sharp;
-  });
-  const bool ends = result.sharp < 2;
-  result.mean = (ends ? sum : sharp_sum) / static_cast<double>(ends ? count : result.sharp);
-  return result;
-}
-
-/// Inner control points that are held, moved along the surface, or along their sharp line, towards where they relax to;
-/// those at the ends and crossings of lines stay.
-Values relaxed_along(const FitLevel& level, const Scheme& scheme, Values control) {
-  constexpr int kSweeps = 2;
-  constexpr double kPart = 0.5;
-  const Topology& topology = level.topology;
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    const Values before = control;
-    const Values normals = limit_normals(topology, scheme, before).vertices;
-    for (Index v = 0; v < topology.vertex_count(); ++v) {
-      if (level.held[v] == 0) continue;
-      const std::optional<RelaxedPlace> place = relaxed_place(topology, before, v);
-      if (!place || topology.vertex_sharpness(v) > 0.0F) continue;
-      const Eigen::RowVector3d move = kPart * (place->mean - before.row(v));
-      if (place->sharp == 0) {
-        control.row(v) += move - move.dot(normals.row(v)) * normals.row(v);
-      } else if (place->sharp == 2 && place->line.squaredNorm() > 0.0) {
-        control.row(v) += move.dot(place->line) / place->line.squaredNorm() * place->line;
-      }
-    }
-  }
-  return control;
-}
-
 /// Places of the surface, where each is drawn to and how.
 struct Pulls {
   std::vector<SurfacePlace> places;
@@ -298,6 +246,23 @@ void pull_to_data(const FitState& parts, const std::vector<Jet>& jets, double we
       scale(unit * areas[i], form);
     }
   });
+}
+
+/// Solves the assembled system.
+Values solve_step(const FitState& parts, const FitStep& options, const GivenMoves& given, SolveReport& report) {
+  const FitLevel& level = *parts.level;
+  Values normals = limit_normals(level.topology, parts.scheme, parts.control).vertices;
+  const double unit = level.energy_scale;
+  Fairness fairness{unit * options.fairness, unit * std::max(0.0, options.evenness - options.fairness), level.stiffness,
+                    options.damping};
+  if (options.mending > 0.0) {
+    normals.setZero();
+    fairness.tangent = unit * options.mending;
+    for (std::size_t v = 0; v < level.held.size(); ++v)
+      fairness.stiffness[static_cast<Eigen::Index>(v)] = level.held[v] != 0 ? 1.0 : 0.0;
+  }
+  return level.equations.solve(parts.control, normals, fairness, {options.tolerance, options.max_iterations, {}},
+                               report, given);
 }
 
 }  // namespace
@@ -383,14 +348,19 @@ Values SurfaceFitter::find_step(const FitStep& options, SolveReport* report) con
   if (options.pull > 0.0) pull_to_data(parts, jets, options.pull, pulls);
   level.equations.assemble(level.weights.rows(pulls.places), pulls.forms, pulls.offsets);
   SolveReport solved;
-  const Values normals = limit_normals(level.topology, parts.scheme, parts.control).vertices;
-  const double unit = level.energy_scale;
-  const Fairness fairness{unit * options.fairness, unit * std::max(0.0, options.evenness - options.fairness),
-                          level.stiffness, options.damping};
-  Values step =
-      level.equations.solve(parts.control, normals, fairness, {options.tolerance, options.max_iterations, {}}, solved);
+  Values step = solve_step(parts, options, {}, solved);
   if (report != nullptr) *report = std::move(solved);
   return step;
+}
+
+Values SurfaceFitter::find_step_beside(const FitStep& options, const Values& moves) const {
+  SolveReport solved;
+  return solve_step(*parts_, options, {parts_->level->held, moves}, solved);
+}
+
+bool SurfaceFitter::has_held() const {
+  const Buffer<std::uint8_t>& held = parts_->level->held;
+  return std::find(held.begin(), held.end(), 1) != held.end();
 }
 
 void SurfaceFitter::move_to(const Values& control) {
@@ -415,7 +385,7 @@ Values SurfaceFitter::stepped(const Values& control, const Values& step, Soundne
 bool SurfaceFitter::relax(Soundness asked) {
   FitLevel& level = *parts_->level;
   if (std::count(level.held.begin(), level.held.end(), 1) == 0) return false;
-  const Values control = relaxed_along(level, parts_->scheme, parts_->control);
+  const Values control = relaxed_along(level.topology, parts_->scheme, parts_->control, level.held);
   Buffer<std::uint8_t> blocked(level.held.size(), 0);
   move_to(asked == Soundness::Unfolded ? control
                                        : kept_sound(level, parts_->control, control - parts_->control, asked, blocked));
@@ -426,23 +396,9 @@ Index SurfaceFitter::unsound_faces() const { return unsound_faces(parts_->contro
 
 Index SurfaceFitter::unsound_faces(const Values& control) const { return parts_->level->unsound_count(control); }
 
-void SurfaceFitter::even_out_unsound() {
-  constexpr double kPart = 0.5;
+void SurfaceFitter::even_out_unsound(double part) {
   FitLevel& level = *parts_->level;
-  const Topology& topology = level.topology;
-  const Buffer<std::uint8_t> flags = level.flags_of(parts_->control, Soundness::Whole);
-  Buffer<std::uint8_t> corners(level.held.size(), 0);
-  for (Index f = 0; f < static_cast<Index>(flags.size()); ++f) {
-    if (flags[f] == 0) continue;
-    for (Index h = topology.face_begin(f); h < topology.face_end(f); ++h) corners[topology.origin(h)] = 1;
-  }
-  Values control = parts_->control;
-  for (Index v = 0; v < topology.vertex_count(); ++v) {
-    if (corners[v] == 0) continue;
-    if (const std::optional<RelaxedPlace> place = relaxed_place(topology, parts_->control, v))
-      control.row(v) += kPart * (place->mean - control.row(v));
-  }
-  move_to(control);
+  move_to(evened_out(level.topology, parts_->control, level.flags_of(parts_->control, Soundness::Whole), part));
 }
 
 Index SurfaceFitter::hold_unsound() {

@@ -21,6 +21,8 @@ struct FitStep {
   double evenness = 1e-2;  ///< the same for moves along the surface, which keeps the parameters even
   /// What places of the surface, drawn to the nearest points of the data, count beside points drawn to the surface.
   double pull = 1.0;
+  /// The same for all moves of control points that are held; where it is not 0 there is no evenness.
+  double mending = 0.0;
   double damping = 1e-4;    ///< holds control points where they are, as a share of what points pull them
   double tolerance = 1e-3;  ///< of the linear system, relative
   int max_iterations = 200;
@@ -75,6 +77,11 @@ class SurfaceFitter {
   /// NotFinite).
   Values stepped(const Values& control, const Values& step, Soundness asked = Soundness::Whole);
 
+  /// True where the last stepped() held control points.
+  bool has_held() const;
+  /// The last find_step() again, where these control points move as in `moves` and the others as suits that.
+  Values find_step_beside(const FitStep& options, const Values& moves) const;
+
   /// Moves control points that the last stepped() held along the surface towards the mean of their neighbours, so that
   /// they can go on; false where there are none. With Unfolded the surface may fold or pass through itself afterwards.
   bool relax(Soundness asked = Soundness::Whole);
@@ -83,9 +90,9 @@ class SurfaceFitter {
   Index unsound_faces() const;
   /// The same where the control points were these, V-by-3.
   Index unsound_faces(const Values& control) const;
-  /// Moves the control points of these faces half of the way to the mean of their neighbours, on sharp lines of
+  /// Moves the control points of these faces a part of the way to the mean of their neighbours, on sharp lines of
   /// those on the lines: off the points, where nothing else makes the surface sound.
-  void even_out_unsound();
+  void even_out_unsound(double part);
   /// Holds the control points around these faces, so that relax() moves them; returns how many faces there are.
   Index hold_unsound();
 
