@@ -25,6 +25,17 @@ bool has_one_normal(const LimitMatrix& limit, Index vertex, VertexRing& ring) {
   return limit_sectors(rules, LimitMasks::Exact).size() == 1;
 }
 
+/// The least rotation that turns one direction onto another; of opposite ones, one of the half turns.
+Eigen::Matrix3d turn_onto(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  const Eigen::Vector3d axis = from.cross(to);
+  const double sine = axis.norm();
+  const double cosine = from.dot(to);
+  const bool opposite = !(sine > 1e-12 * std::abs(cosine));
+  return Eigen::AngleAxisd(std::atan2(sine, cosine),
+                           opposite ? from.unitOrthogonal().eval() : Eigen::Vector3d(axis / sine))
+      .toRotationMatrix();
+}
+
 }  // namespace
 
 /// All but the normal. False where there is no tangent plane.
@@ -112,8 +123,7 @@ Index FairNormals::hold_opposed(const Values& unknowns, const Values& model) {
     if (opposed.row(0).cross(opposed.row(1)).dot(condition.normal) >= 0.0) continue;
     const Tangents wanted = tangents(condition, model);
     const Eigen::Vector3d normal = wanted.row(0).cross(wanted.row(1)).transpose();
-    const auto turn = Eigen::Quaterniond::FromTwoVectors(normal, condition.normal.transpose());
-    const Tangents turned = (turn.toRotationMatrix() * wanted.transpose()).transpose();
+    const Tangents turned = (turn_onto(normal, condition.normal.transpose()) * wanted.transpose()).transpose();
     condition.values = condition.to_rows * (turned - condition.constant);
     condition.directions.setIdentity();
     ++count;
