@@ -1,13 +1,14 @@
 #include "batten/fit/mapped_sphere.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
 
-#include "batten/dynamics/rotation.h"
 #include "batten/energy/surface_energy.h"
 #include "batten/error.h"
 #include "batten/fit/first_mesh.h"
@@ -141,7 +142,10 @@ Eigen::Matrix3d aligning_turn(const std::vector<Anchor>& middles, const Points& 
         (anchor.target * around.axes - around.middle).cwiseQuotient(around.half).normalized();
     sum += anchor.form[0] * mixed(directions, anchor).normalized().transpose() * ray;
   }
-  return best_rotation(sum).matrix;
+  const Eigen::JacobiSVD<Eigen::Matrix3d> parts(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Matrix3d left = parts.matrixU();
+  if ((left * parts.matrixV().transpose()).determinant() < 0.0) left.col(2) *= -1.0;
+  return left * parts.matrixV().transpose();
 }
 
 /// Each value moves towards the mean of its neighbours'.
