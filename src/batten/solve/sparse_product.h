@@ -6,8 +6,8 @@
 
 namespace batten {
 
-/// result = matrix * values, of three columns; resized. Rows in parallel; the result does not depend on the number of
-/// threads.
+/// result = matrix * values, of three columns; resized, and another object than the values. The columns of each row of
+/// the matrix ascend, as Eigen keeps them. Rows in parallel; the result does not depend on the number of threads.
 void multiply(const Eigen::SparseMatrix<double, Eigen::RowMajor>& matrix, const Values& values, Values& result);
 
 /// Whether the matrices, compressed, have their entries in the same places.
