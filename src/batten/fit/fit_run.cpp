@@ -253,7 +253,6 @@ void FitRun::lower_worst(const Progress& progress) {
   constexpr double kExact = 1e-10;
   constexpr double kMostGrowth = 1.1;
   constexpr int kStill = 3;
-  Values last;
   FitErrors best = measured();
   if (best.rms < kExact) return;
   const double most = kMostGrowth * best.rms;
@@ -261,13 +260,12 @@ void FitRun::lower_worst(const Progress& progress) {
   passed_.clear();
   passed_.note({fitter_.control(), best.rms, unsound});
   int still = 0;  // rounds in a row that moved nothing
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 0; round < rounds && still < kStill; ++round) {
     report_progress(progress, static_cast<double>(round) / rounds);
-    still = fitter_.control() == last ? still + 1 : 0;
-    if (still == kStill) break;
-    last = fitter_.control();
+    const Values before = fitter_.control();
     set_weights(kWorstPower);
     go_round(Soundness::Unfolded);
+    still = fitter_.control() == before ? still + 1 : 0;
     const FitErrors errors = measured();
     if (!(errors.max < best.max) || errors.rms > most || has_unsound_beyond(unsound)) continue;
     best = errors;
