@@ -8,6 +8,8 @@
 #include <set>
 #include <string>
 
+#include "support/source_folder.h"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -41,7 +43,7 @@ std::set<std::string> reach(const std::string& room) {
 }
 
 TEST(Arrows, EveryIncludeFollowsTheArrows) {
-  const fs::path library = fs::path(BATTEN_SOURCE_DIR) / "src" / "batten";
+  const fs::path library = fs::path(batten::test::source_folder()) / "src" / "batten";
   const std::regex include("^\\s*#\\s*include\\s+\"batten/([a-z]+)/[^\"]+\"");
   int seen = 0;
   for (const auto& entry : fs::recursive_directory_iterator(library)) {
@@ -63,7 +65,7 @@ TEST(Arrows, EveryIncludeFollowsTheArrows) {
 }
 
 TEST(Arrows, TheLibraryNeverPrints) {
-  const fs::path library = fs::path(BATTEN_SOURCE_DIR) / "src" / "batten";
+  const fs::path library = fs::path(batten::test::source_folder()) / "src" / "batten";
   const std::regex print("std::cout|std::cerr|\\bprintf\\(|\\bputs\\(");
   for (const auto& entry : fs::recursive_directory_iterator(library)) {
     if (!entry.is_regular_file()) continue;

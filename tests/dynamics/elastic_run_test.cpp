@@ -13,6 +13,7 @@
 #include "batten/mesh/primitives.h"
 #include "batten/parallel/threads.h"
 #include "support/errors.h"
+#include "support/source_folder.h"
 
 namespace batten {
 namespace {
@@ -219,7 +220,7 @@ TEST(ElasticRunErrors, NameFilesThatAreNotThere) {
     test::expect_error([&] { read_scene_meshes(parse_scene("s.json", text)); }, ErrorCode::FileNotReadable, message);
   };
   expect(R"({"mesh": "no.obj"})", "s.json: mesh: no.obj");
-  const std::string cube_file = std::string(BATTEN_SOURCE_DIR) + "/models/cube.obj";
+  const std::string cube_file = test::source_folder() + "/models/cube.obj";
   expect(R"({"mesh": ")" + cube_file + R"(", "start": {"mesh": "no.obj"}})", "s.json: start.mesh: no.obj");
   expect(R"({"mesh": ")" + cube_file + R"(", "forces": [{"type": "nearest-springs", "points": "no.xyz"}]})",
          "s.json: forces[0].points: no.xyz");
@@ -234,7 +235,7 @@ TEST(ElasticRunErrors, NameAStartWithOtherFaces) {
 }
 
 TEST(ElasticRunScenes, OfTheModelsRun) {
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(BATTEN_SOURCE_DIR) + "/models")) {
+  for (const auto& entry : std::filesystem::directory_iterator(test::source_folder() + "/models")) {
     const std::string path = entry.path().string();
     if (path.find(".scene.json") == std::string::npos) continue;
     ElasticRun run(read_scene(path));

@@ -9,6 +9,7 @@
 
 #include "batten/dynamics/scene.h"
 #include "batten/error.h"
+#include "support/source_folder.h"
 
 namespace batten {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 using SchemaWords = std::set<std::string>;
 
 nlohmann::json read_schema() {
-  std::ifstream file(std::string(BATTEN_SOURCE_DIR) + "/models/scene.schema.json");
+  std::ifstream file(test::source_folder() + "/models/scene.schema.json");
   return nlohmann::json::parse(file);
 }
 

@@ -16,6 +16,7 @@
 #include "batten/refine/refinement.h"
 #include "support/schemes.h"
 #include "support/shapes.h"
+#include "support/source_folder.h"
 
 namespace batten {
 namespace {
@@ -91,7 +92,7 @@ TEST(FoundCreases, OfABoxKeepTheirRightAngles) {
 }
 
 TEST(FoundCreases, OfABracketStaySharp) {
-  Mesh bracket = read_mesh(std::string(BATTEN_SOURCE_DIR) + "/models/bracket.obj");
+  Mesh bracket = read_mesh(test::source_folder() + "/models/bracket.obj");
   bracket.creases.clear();
   const FoundCreases creases = interpolate_with_found(bracket);
   EXPECT_EQ(creases.count, 165U);

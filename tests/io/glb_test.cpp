@@ -8,6 +8,7 @@
 #include "batten/mesh/triangulate.h"
 #include "io/glb_test_tools.h"
 #include "io/io_test_tools.h"
+#include "support/source_folder.h"
 
 namespace batten::io_tests {
 namespace {
@@ -165,7 +166,7 @@ TEST(FindUpAxis, FollowsTheFormatsConventionUnlessTheShapeSaysOtherwise) {
   const Mesh neither = dodecahedron();
   for (const char* format : {"obj", "ply", "off", "glb"}) EXPECT_EQ(find_up_axis(neither, format), UpAxis::Y) << format;
   for (const char* format : {"stl", "xyz"}) EXPECT_EQ(find_up_axis(neither, format), UpAxis::Z) << format;
-  const Mesh joint = read_mesh(std::string(BATTEN_SOURCE_DIR) + "/models/creature.obj");  // stands on four feet on z
+  const Mesh joint = read_mesh(test::source_folder() + "/models/creature.obj");  // stands on four feet on z
   EXPECT_EQ(find_up_axis(joint, "obj"), UpAxis::Z);
   EXPECT_EQ(find_up_axis(joint, "glb"), UpAxis::Y);
 }

@@ -14,16 +14,8 @@
 #include "batten/mesh/summary.h"
 #include "batten/mesh/topology.h"
 #include "mesh/manifold.h"
-
-// The generator is a separate program. This test includes its sources without main.
-#include "../../models/all_models.cpp"
-#include "../../models/ball.cpp"
-#include "../../models/blocks.cpp"
-#include "../../models/broken.cpp"
-#include "../../models/elastic.cpp"
-#include "../../models/field.cpp"
-#include "../../models/medial.cpp"
-#include "../../models/pipes.cpp"
+#include "shapes.h"
+#include "support/source_folder.h"
 
 namespace batten {
 namespace {
@@ -197,7 +189,7 @@ TEST(Models, FilesAreWhatTheGeneratorMakes) {
   for (const models::Model& morphed : models::morph_models()) all.push_back(morphed);
   for (const models::Model& elastic : models::elastic_models()) all.push_back(elastic);
   for (const models::Model& expected : all) {
-    const Mesh file = read_mesh(std::string(BATTEN_SOURCE_DIR) + "/models/" + expected.name + ".obj");
+    const Mesh file = read_mesh(test::source_folder() + "/models/" + expected.name + ".obj");
     ASSERT_EQ(file.vertex_count(), expected.mesh.vertex_count()) << expected.name;
     // A sine's last bit may round to the next grain on another machine.
     EXPECT_LT((file.points - expected.mesh.points).cwiseAbs().maxCoeff(), 2e-4) << expected.name;
@@ -215,7 +207,7 @@ TEST(Models, FilesAreWhatTheGeneratorMakes) {
 /// Their spokes are Blum's, do not pass each other, and the files hold them.
 TEST(Models, MedialModelsAreSound) {
   for (const models::MedialSample& sample : models::medial_models()) {
-    const MedialModel file = read_medial(std::string(BATTEN_SOURCE_DIR) + "/models/" + sample.file);
+    const MedialModel file = read_medial(test::source_folder() + "/models/" + sample.file);
     ASSERT_EQ(file.figures.size(), sample.model.figures.size()) << sample.file;
     for (std::size_t i = 0; i < file.figures.size(); ++i) {
       EXPECT_LT((file.figures[i].sheet.points - sample.model.figures[i].sheet.points).cwiseAbs().maxCoeff(), 2e-4);

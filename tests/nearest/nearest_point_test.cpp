@@ -14,6 +14,7 @@
 #include "batten/tessellate/tessellator.h"
 #include "nearest/nearest_test_tools.h"
 #include "support/errors.h"
+#include "support/source_folder.h"
 
 namespace batten {
 namespace {
@@ -71,7 +72,7 @@ TEST(NearestPoint, ASurfaceThatIsAPointAnswersAtOnce) {
 
 /// The plan's 10 M samples, on a model of the project.
 TEST(NearestPoint, NoneOfTenMillionSamplesIsNearer) {
-  const Mesh mesh = read_mesh(std::string(BATTEN_SOURCE_DIR) + "/models/creature.obj");
+  const Mesh mesh = read_mesh(test::source_folder() + "/models/creature.obj");
   const Topology topology(mesh);
   int levels = 1;
   for (Index corners = topology.half_edge_count(); corners < 10'000'000; corners *= 4) ++levels;
